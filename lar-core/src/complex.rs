@@ -1,0 +1,64 @@
+//! Chain complexes: the points of the 0-cells and the boundary operators ∂1 … ∂d.
+
+use crate::{Cells, Points};
+use sprs::CsMatI;
+
+/// A boundary or coboundary operator: a sparse matrix with entries −1, 0, +1, in compressed columns for
+/// boundaries (column = the boundary of one cell).
+#[doc(alias = "ChainOp")]
+pub type Operator = CsMatI<i8, u32>;
+
+/// Points and boundary operators ∂p : Cp → Cp−1, p = 1..=d; `boundary(p)` has one row for each (p−1)-cell and
+/// one column for each p-cell.
+#[doc(alias = "ChainComplex")]
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChainComplex {
+    points: Points,
+    boundaries: Vec<Operator>,
+}
+
+impl ChainComplex {
+    /// A complex from its points and ∂1 … ∂d. The laws are not checked here.
+    #[must_use]
+    pub fn new(points: Points, boundaries: Vec<Operator>) -> Self {
+        Self { points, boundaries }
+    }
+
+    /// Positions of the 0-cells.
+    #[must_use]
+    pub fn points(&self) -> &Points {
+        &self.points
+    }
+
+    /// Dimension d of the highest cells.
+    #[must_use]
+    pub fn dim(&self) -> usize {
+        self.boundaries.len()
+    }
+
+    /// ∂p: rows (p−1)-cells, columns p-cells, compressed columns.
+    ///
+    /// # Panics
+    /// When `p` is 0 or above `dim()`.
+    #[must_use]
+    pub fn boundary(&self, p: usize) -> &Operator {
+        &self.boundaries[p - 1]
+    }
+
+    /// The number of p-cells.
+    #[must_use]
+    pub fn n_cells(&self, p: usize) -> usize {
+        if p == 0 { self.points.len() } else { self.boundaries.get(p - 1).map_or(0, Operator::cols) }
+    }
+}
+
+
+impl ChainComplex {
+    /// An operator of `rows` rows from sorted columns: row indices and entries in the same flat order.
+    #[must_use]
+    pub fn operator_from_columns(rows: usize, columns: Cells, signs: Vec<i8>) -> Operator {
+        let cols = columns.len();
+        let (offsets, indices) = columns.into_parts();
+        CsMatI::new_csc((rows, cols), offsets, indices, signs)
+    }
+}

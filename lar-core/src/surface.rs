@@ -1,0 +1,62 @@
+//! Polygonal surfaces: faces as oriented loops of vertices, with holes; the input of an arrangement.
+
+use crate::{Cells, Points};
+
+/// Polygonal faces in 3-space. A face is one outer loop and any number of hole loops, each a cyclic list of
+/// vertices; seen from the tip of its normal the outer loop turns counter-clockwise, holes clockwise.
+/// Faces may cross each other, repeat, touch, leave the surface open.
+///
+/// `loops[l]` lists the vertices of loop l; `face_loops[f]..face_loops[f + 1]` are the loops of face f, the
+/// outer one first. `coefficients[f]` is the face's coefficient (−1, 0, +1, …) in the boundary of the solid that
+/// the surface bounds: 0 for an inner wall, which divides space but bounds nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface {
+    /// Name, for messages and expressions.
+    pub name: String,
+    /// 3 × n.
+    pub points: Points,
+    loops: Cells,
+    face_loops: Vec<u32>,
+    coefficients: Vec<i8>,
+}
+
+impl Surface {
+    /// A surface without faces.
+    #[must_use]
+    pub fn new(name: impl Into<String>, points: Points) -> Self {
+        Self {
+            name: name.into(),
+            points,
+            loops: Cells::new(),
+            face_loops: vec![0],
+            coefficients: Vec::new(),
+        }
+    }
+
+    /// Appends a face: its outer loop first, then its holes. Returns its index.
+    pub fn push_face<'a>(&mut self, loops: impl IntoIterator<Item = &'a [u32]>, coefficient: i8) -> usize {
+        for cycle in loops {
+            self.loops.push(cycle);
+        }
+        self.face_loops.push(u32::try_from(self.loops.len()).expect("fewer than 2^32 loops"));
+        self.coefficients.push(coefficient);
+        self.coefficients.len() - 1
+    }
+
+    /// Number of faces.
+    #[must_use]
+    pub fn n_faces(&self) -> usize {
+        self.coefficients.len()
+    }
+
+    /// The loops of face `f`, the outer one first.
+    pub fn face(&self, f: usize) -> impl ExactSizeIterator<Item = &[u32]> + Clone + '_ {
+        (self.face_loops[f]..self.face_loops[f + 1]).map(|l| &self.loops[l as usize])
+    }
+
+    /// The coefficient of face `f` in the boundary of the solid.
+    #[must_use]
+    pub fn coefficient(&self, f: usize) -> i8 {
+        self.coefficients[f]
+    }
+}

@@ -1,0 +1,2 @@
+//! The lar command.
+fn main() {}
