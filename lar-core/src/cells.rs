@@ -11,7 +11,6 @@
 /// assert_eq!(cells.len(), 2);
 /// assert_eq!(&cells[1], [2, 1, 3, 4]);
 /// ```
-#[doc(alias = "Cells")]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cells {
     offsets: Vec<u32>,

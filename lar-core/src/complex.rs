@@ -10,7 +10,6 @@ pub type Operator = CsMatI<i8, u32>;
 
 /// Points and boundary operators ∂p : Cp → Cp−1, p = 1..=d; `boundary(p)` has one row for each (p−1)-cell and
 /// one column for each p-cell.
-#[doc(alias = "ChainComplex")]
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChainComplex {
     points: Points,

@@ -7,11 +7,13 @@
 mod cells;
 mod complex;
 mod ids;
+mod mesh;
 mod points;
 mod surface;
 
 pub use cells::Cells;
 pub use complex::{ChainComplex, Operator};
 pub use ids::{CellId, EdgeId, FaceId, VertexId};
+pub use mesh::TriangleMesh;
 pub use points::Points;
 pub use surface::Surface;

@@ -11,7 +11,6 @@ use nalgebra::DMatrix;
 /// assert_eq!((square.dim(), square.len()), (2, 4));
 /// assert_eq!(square.point(2), [1., 1.]);
 /// ```
-#[doc(alias = "Points")]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Points {
     dim: usize,
