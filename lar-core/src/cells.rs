@@ -59,6 +59,15 @@ impl Cells {
         Self { offsets, indices }
     }
 
+    /// The cells {0}, {1}, …, {n − 1}: every vertex a 0-cell.
+    ///
+    /// # Panics
+    /// When `n` does not fit `u32`.
+    #[must_use]
+    pub fn singletons(n: usize) -> Self {
+        Self::uniform(1, (0..offset(n)).collect())
+    }
+
     /// Number of cells.
     #[must_use]
     pub fn len(&self) -> usize {

@@ -51,7 +51,6 @@ impl ChainComplex {
     }
 }
 
-
 impl ChainComplex {
     /// An operator of `rows` rows from sorted columns: row indices and entries in the same flat order.
     #[must_use]
@@ -60,4 +59,18 @@ impl ChainComplex {
         let (offsets, indices) = columns.into_parts();
         CsMatI::new_csc((rows, cols), offsets, indices, signs)
     }
+}
+
+/// An operator of `rows` rows from its columns, each a list of distinct rows with their entries in any order.
+pub(crate) fn sign_columns<C: AsMut<[(u32, i8)]>>(rows: usize, columns: impl Iterator<Item = C>) -> Operator {
+    let mut offsets = vec![0];
+    let (mut indices, mut signs) = (Vec::new(), Vec::new());
+    for mut column in columns {
+        let column = column.as_mut();
+        column.sort_unstable();
+        indices.extend(column.iter().map(|entry| entry.0));
+        signs.extend(column.iter().map(|entry| entry.1));
+        offsets.push(u32::try_from(indices.len()).expect("operators hold fewer than 2^32 entries"));
+    }
+    CsMatI::new_csc((rows, offsets.len() - 1), offsets, indices, signs)
 }

@@ -87,7 +87,13 @@ impl Points {
     /// # Panics
     /// When `point` has not `dim()` coordinates.
     pub fn push(&mut self, point: &[f64]) {
-        assert_eq!(point.len(), self.dim, "a point of {} coordinates among points of {}", point.len(), self.dim);
+        assert_eq!(
+            point.len(),
+            self.dim,
+            "a point of {} coordinates among points of {}",
+            point.len(),
+            self.dim
+        );
         self.coords.extend_from_slice(point);
     }
 
@@ -111,6 +117,13 @@ impl Points {
     #[must_use]
     pub fn to_matrix(&self) -> DMatrix<f64> {
         DMatrix::from_column_slice(self.dim, self.len(), &self.coords)
+    }
+
+    /// The coordinates that are infinite or not numbers: point, axis, value.
+    pub fn non_finite(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
+        let dim = self.dim.max(1);
+        let at = move |(i, &x): (usize, &f64)| (i / dim, i % dim, x);
+        self.coords.iter().enumerate().filter(|(_, x)| !x.is_finite()).map(at)
     }
 
     /// Lower and upper corner of the bounding box; `None` when there are no points.

@@ -1,6 +1,6 @@
 //! Polygonal surfaces: faces as oriented loops of vertices, with holes; the input of an arrangement.
 
-use crate::{Cells, Points};
+use crate::{Affine, AffineError, Cells, Points, TriangleMesh};
 
 /// Polygonal faces in 3-space. A face is one outer loop and any number of hole loops, each a cyclic list of
 /// vertices; seen from the tip of its normal the outer loop turns counter-clockwise, holes clockwise.
@@ -24,13 +24,7 @@ impl Surface {
     /// A surface without faces.
     #[must_use]
     pub fn new(name: impl Into<String>, points: Points) -> Self {
-        Self {
-            name: name.into(),
-            points,
-            loops: Cells::new(),
-            face_loops: vec![0],
-            coefficients: Vec::new(),
-        }
+        Self { name: name.into(), points, loops: Cells::new(), face_loops: vec![0], coefficients: Vec::new() }
     }
 
     /// Appends a face: its outer loop first, then its holes. Returns its index.
@@ -58,5 +52,28 @@ impl Surface {
     #[must_use]
     pub fn coefficient(&self, f: usize) -> i8 {
         self.coefficients[f]
+    }
+
+    /// The vertices of a triangle mesh and its triangles as faces of coefficient +1.
+    #[must_use]
+    pub fn from_triangles(name: impl Into<String>, mesh: &TriangleMesh) -> Self {
+        let mut surface = Self::new(name, mesh.points.clone());
+        for triangle in &mesh.triangles {
+            surface.push_face([&triangle[..]], 1);
+        }
+        surface
+    }
+
+    /// The surface moved by an affine map; all loops are reversed when the map mirrors, so that outward faces stay
+    /// outward.
+    ///
+    /// # Errors
+    /// When the map is not of 3-space.
+    pub fn transformed(&self, map: &Affine) -> Result<Self, AffineError> {
+        let mut moved = Self { points: map.apply(&self.points)?, ..self.clone() };
+        if map.is_mirror() {
+            moved.loops = self.loops.iter().map(|l| l.iter().rev().copied().collect::<Vec<_>>()).collect();
+        }
+        Ok(moved)
     }
 }

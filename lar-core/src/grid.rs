@@ -1,0 +1,147 @@
+//! Cuboidal grids of any dimension with the cells of every dimension.
+//!
+//! The p-cells of a d-dimensional grid are products of d factors, p of them unit intervals and d − p of them grid
+//! points. Which factors are intervals is a bit mask (the first axis is the highest bit); p-cells come in rising
+//! order of masks and, inside a mask, in row-major order of their lowest corner.
+
+use crate::{Cells, Model, Points};
+
+/// The grid of `shape[0] × … × shape[d − 1]` unit cubes with its lowest corner at the origin, with all its
+/// skeletons: `cells(p)` for p = 0..=d, each cell the set of its 2^p vertices in row-major (grid) order.
+///
+/// Vertices are numbered in row-major order, the last coordinate fastest. O(cells · 2^d) time and memory.
+///
+/// # Panics
+/// When the cells of one dimension have 2^32 vertices or more in all, which no `u32` index could address.
+///
+/// ```
+/// let cube = lar_core::cuboid_grid(&[1, 1, 1]);
+/// assert_eq!(cube.f_vector(), [8, 12, 6, 1]);
+/// assert_eq!(&cube.cells(2)[0], [0, 1, 2, 3]);
+/// assert_eq!(cube.points().point(4), [1., 0., 0.]);
+/// ```
+///
+/// Source: DiCarlo, Paoluzzi, Shapiro, CAD 46 (2014).
+#[doc(alias = "cuboidGrid")]
+#[doc(alias = "larGridSkeleton")]
+#[must_use]
+pub fn cuboid_grid(shape: &[usize]) -> Model {
+    let d = shape.len();
+    assert!(d < 32, "a grid of {d} dimensions has cells of 2^32 vertices or more");
+    let n_vertices =
+        shape.iter().try_fold(1_u32, |n, &k| n.checked_mul(u32::try_from(k).ok()?.checked_add(1)?));
+    assert!(n_vertices.is_some(), "a grid of shape {shape:?} has 2^32 vertices or more");
+    let mut cells = vec![Cells::new(); d + 1];
+    for mask in 0..1_u32 << d {
+        push_cells(shape, mask, &mut cells[mask.count_ones() as usize]);
+    }
+    Model::new(grid_points(shape), cells)
+}
+
+/// The vertices in row-major order.
+fn grid_points(shape: &[usize]) -> Points {
+    let mut points = Points::new(shape.len());
+    let counts: Vec<usize> = shape.iter().map(|&n| n + 1).collect();
+    for_each_row_major(&counts, |at| {
+        #[expect(clippy::cast_precision_loss, reason = "grid coordinates stay below 2^32")]
+        let point: Vec<f64> = at.iter().map(|&x| x as f64).collect();
+        points.push(&point);
+    });
+    points
+}
+
+/// The cells whose intervals lie along the axes of `mask`, row-major by their lowest corner.
+fn push_cells(shape: &[usize], mask: u32, cells: &mut Cells) {
+    let d = shape.len();
+    let along = |axis: usize| mask >> (d - 1 - axis) & 1 == 1;
+    let counts: Vec<usize> =
+        (0..d).map(|axis| if along(axis) { shape[axis] } else { shape[axis] + 1 }).collect();
+    let mut strides = vec![1_u32; d];
+    for axis in (1..d).rev() {
+        strides[axis - 1] = strides[axis] * index(shape[axis] + 1);
+    }
+    let mut corners = vec![0_u32];
+    for axis in (0..d).filter(|&axis| along(axis)) {
+        corners = corners.iter().flat_map(|&c| [c, c + strides[axis]]).collect();
+    }
+    let mut cell = corners.clone();
+    for_each_row_major(&counts, |at| {
+        let lowest: u32 = at.iter().zip(&strides).map(|(&x, &stride)| index(x) * stride).sum();
+        for (vertex, corner) in cell.iter_mut().zip(&corners) {
+            *vertex = lowest + corner;
+        }
+        cells.push(&cell);
+    });
+}
+
+/// Calls `visit` with each index of an array of shape `counts`, the last axis fastest.
+fn for_each_row_major(counts: &[usize], mut visit: impl FnMut(&[usize])) {
+    if counts.contains(&0) {
+        return;
+    }
+    let mut at = vec![0; counts.len()];
+    loop {
+        visit(&at);
+        let Some(axis) = (0..counts.len()).rev().find(|&k| at[k] + 1 < counts[k]) else { return };
+        at[axis] += 1;
+        at[axis + 1..].fill(0);
+    }
+}
+
+fn index(n: usize) -> u32 {
+    u32::try_from(n).expect("the number of vertices fits u32")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(shape: &[usize], expected: &[usize]) {
+        let grid = cuboid_grid(shape);
+        assert_eq!(grid.f_vector(), expected, "{shape:?}");
+        assert_eq!(grid.validate(), []);
+        let euler: i64 =
+            (0..).zip(expected).map(|(p, &n)| if p % 2 == 0 { n as i64 } else { -(n as i64) }).sum();
+        assert_eq!(euler, 1, "{shape:?}");
+    }
+
+    #[test]
+    fn f_vectors() {
+        check(&[1], &[2, 1]);
+        check(&[10], &[11, 10]);
+        check(&[1, 1], &[4, 4, 1]);
+        check(&[3, 2], &[12, 17, 6]);
+        check(&[3, 3], &[16, 24, 9]);
+        check(&[3, 10], &[44, 73, 30]);
+        check(&[20, 20], &[441, 840, 400]);
+        check(&[1, 1, 1], &[8, 12, 6, 1]);
+        check(&[2, 2, 2], &[27, 54, 36, 8]);
+        check(&[3, 2, 1], &[24, 46, 29, 6]);
+        check(&[3, 3, 10], &[176, 424, 339, 90]);
+        check(&[10, 10, 10], &[1331, 3630, 3300, 1000]);
+        check(&[20, 20, 20], &[9261, 26460, 25200, 8000]);
+        check(&[32, 32, 16], &[18513, 53328, 51200, 16384]);
+        check(&[1, 1, 1, 1], &[16, 32, 24, 8, 1]);
+    }
+
+    #[test]
+    fn flat_grids_lose_the_dimension() {
+        check(&[0], &[1, 0]);
+        check(&[2, 0], &[3, 2, 0]);
+    }
+
+    #[test]
+    fn unit_cube_numbering() {
+        let cube = cuboid_grid(&[1, 1, 1]);
+        let one_based = |p: usize| -> Vec<String> {
+            cube.cells(p).iter().map(|c| c.iter().map(|v| (v + 1).to_string()).collect()).collect()
+        };
+        let points: Vec<String> =
+            cube.points().iter().map(|p| p.iter().map(ToString::to_string).collect()).collect();
+        assert_eq!(points, ["000", "001", "010", "011", "100", "101", "110", "111"]);
+        assert_eq!(one_based(1), ["12", "34", "56", "78", "13", "24", "57", "68", "15", "26", "37", "48"]);
+        assert_eq!(one_based(2), ["1234", "5678", "1256", "3478", "1357", "2468"]);
+        assert_eq!(one_based(3), ["12345678"]);
+    }
+}

@@ -1,0 +1,178 @@
+//! Incidence between cells given as vertex sets: characteristic matrices and what their products say.
+//!
+//! With M_p the characteristic matrix of the p-cells (cells × vertices), the product M_q · M_pᵀ counts the
+//! vertices that a q-cell and a p-cell share; where the count equals the size of the p-cell, the p-cell lies in
+//! the q-cell. For convex cells this is the whole boundary relation. Only the entries that reach that count are
+//! computed here.
+//!
+//! Source: DiCarlo, Paoluzzi, Shapiro, CAD 46 (2014), section 3.
+
+use crate::{Cells, ChainComplex, Model, ModelError, Operator};
+
+/// The characteristic matrix of cells: rows cells, columns vertices, 1 where the cell has the vertex; stored by
+/// rows. A vertex repeated in a cell counts once.
+///
+/// # Panics
+/// When a cell names a vertex not below `n_vertices`.
+///
+/// ```
+/// use lar_core::{Cells, characteristic_matrix};
+/// let m = characteristic_matrix(&Cells::uniform(2, vec![0, 1, 1, 2]), 3);
+/// assert_eq!((m.rows(), m.cols(), m.nnz()), (2, 3, 4));
+/// ```
+#[doc(alias = "characteristicMatrix")]
+#[must_use]
+pub fn characteristic_matrix(cells: &Cells, n_vertices: usize) -> Operator {
+    let sorted: Cells = cells
+        .iter()
+        .map(|cell| {
+            let mut cell = cell.to_vec();
+            cell.sort_unstable();
+            cell.dedup();
+            cell
+        })
+        .collect();
+    let ones = vec![1; sorted.indices().len()];
+    ChainComplex::operator_from_columns(n_vertices, sorted, ones).transpose_into()
+}
+
+/// For each cell of `large`, the cells of `small` all of whose vertices it has, in rising order.
+///
+/// Each small cell is filed under the one of its vertices that fewest small cells share, so a hub vertex does not make
+/// the search quadratic. O(output + Σ over large cells of the small cells filed under their vertices) time.
+/// Empty small cells lie nowhere. Vertices must be below `n_vertices`.
+pub(crate) fn contained_cells(small: &Cells, large: &Cells, n_vertices: usize) -> Cells {
+    let filed = file_cells(small, n_vertices);
+    let mut last_seen_in = vec![u32::MAX; n_vertices];
+    let mut contained = Cells::with_capacity(large.len(), 0);
+    for (stamp, cell) in (0..).zip(large.iter()) {
+        for &v in cell {
+            last_seen_in[v as usize] = stamp;
+        }
+        let mut inside: Vec<u32> = Vec::new();
+        for &v in cell {
+            let here = filed[v as usize].iter().copied();
+            inside.extend(
+                here.filter(|&c| small[c as usize].iter().all(|&w| last_seen_in[w as usize] == stamp)),
+            );
+        }
+        inside.sort_unstable();
+        inside.dedup();
+        contained.push(&inside);
+    }
+    contained
+}
+
+/// Per vertex, the cells filed under it.
+fn file_cells(cells: &Cells, n_vertices: usize) -> Cells {
+    let mut degree = vec![0_u32; n_vertices];
+    for &v in cells.indices() {
+        degree[v as usize] += 1;
+    }
+    let owners: Vec<Option<u32>> =
+        cells.iter().map(|cell| cell.iter().copied().min_by_key(|&v| (degree[v as usize], v))).collect();
+    let mut offsets = vec![0_u32; n_vertices + 1];
+    for &owner in owners.iter().flatten() {
+        offsets[owner as usize + 1] += 1;
+    }
+    for v in 0..n_vertices {
+        offsets[v + 1] += offsets[v];
+    }
+    let mut next = offsets.clone();
+    let mut filed = vec![0_u32; offsets[n_vertices] as usize];
+    for (cell, owner) in (0..).zip(&owners) {
+        if let Some(owner) = *owner {
+            filed[next[owner as usize] as usize] = cell;
+            next[owner as usize] += 1;
+        }
+    }
+    Cells::from_parts(offsets, filed)
+}
+
+impl Model {
+    /// Unsigned ∂1: rows vertices, columns edges, 1 at both ends of each edge.
+    ///
+    /// # Errors
+    /// When the model is malformed.
+    #[doc(alias = "boundary_1")]
+    pub fn unsigned_boundary_1(&self) -> Result<Operator, ModelError> {
+        self.check_well_formed()?;
+        Ok(characteristic_matrix(self.cells(1), self.points().len()).transpose_into())
+    }
+
+    /// δ0 = ∂1ᵀ: rows edges, columns vertices, −1 at the smaller vertex of each edge and +1 at the larger.
+    ///
+    /// # Errors
+    /// When the model is malformed.
+    pub fn coboundary_0(&self) -> Result<Operator, ModelError> {
+        Ok(self.signed_boundary_1()?.transpose_into())
+    }
+
+    /// Unsigned δ1: rows faces, columns edges, 1 where both ends of the edge are vertices of the face
+    /// (|FV · EVᵀ| = 2). That is the face's boundary when faces are convex and have no chords.
+    ///
+    /// # Errors
+    /// When the model is malformed.
+    #[doc(alias = "u_coboundary_1")]
+    pub fn unsigned_coboundary_1(&self) -> Result<Operator, ModelError> {
+        self.check_well_formed()?;
+        let edges = contained_cells(self.cells(1), self.cells(2), self.points().len());
+        let ones = vec![1; edges.indices().len()];
+        Ok(ChainComplex::operator_from_columns(self.cells(1).len(), edges, ones).transpose_into())
+    }
+
+    /// Signed δ1 = ∂2ᵀ for convex faces: rows faces, columns edges, +1 where the face's loop runs from the smaller
+    /// vertex of the edge to the larger, −1 where it runs back. Loops are oriented as in
+    /// [`to_surface`](Self::to_surface), in the plane counter-clockwise.
+    ///
+    /// # Errors
+    /// When the model is malformed or a face is no simple loop of its edges.
+    pub fn coboundary_1(&self) -> Result<Operator, ModelError> {
+        Ok(self.signed_boundary_2()?.transpose_into())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cuboid_grid;
+
+    #[test]
+    fn unsigned_coboundary_of_the_cube() {
+        let delta = cuboid_grid(&[1, 1, 1]).unsigned_coboundary_1().unwrap();
+        assert_eq!((delta.rows(), delta.cols(), delta.nnz()), (6, 12, 24));
+        let rows: Vec<Vec<u32>> =
+            delta.outer_iterator().map(|row| row.indices().iter().map(|e| e + 1).collect()).collect();
+        assert_eq!(
+            rows,
+            [[1, 2, 5, 6], [3, 4, 7, 8], [1, 3, 9, 10], [2, 4, 11, 12], [5, 7, 9, 11], [6, 8, 10, 12]]
+        );
+        let mut sums = [0; 12];
+        for &e in delta.indices() {
+            sums[e as usize] += 1;
+        }
+        assert_eq!(sums, [2; 12]);
+    }
+
+    #[test]
+    fn operators_of_the_cube() {
+        let cube = cuboid_grid(&[1, 1, 1]);
+        let unsigned = cube.unsigned_boundary_1().unwrap();
+        assert_eq!((unsigned.rows(), unsigned.cols()), (8, 12));
+        assert!(unsigned.is_csc() && unsigned.data().iter().all(|&x| x == 1));
+        let d0 = cube.coboundary_0().unwrap();
+        let d1 = cube.coboundary_1().unwrap();
+        assert_eq!((d0.rows(), d0.cols(), d1.rows(), d1.cols()), (12, 8, 6, 12));
+        assert!((&d1 * &d0).data().iter().all(|&x| x == 0));
+        assert_eq!(d1.map(|x| x.abs()), cube.unsigned_coboundary_1().unwrap());
+    }
+
+    #[test]
+    fn a_hub_does_not_make_containment_quadratic() {
+        let n = 100_000_u32;
+        let edges: Cells = (1..n).map(|v| [0, v]).collect();
+        let faces: Cells = (1..n - 1).map(|v| [0, v, v + 1]).collect();
+        let inside = contained_cells(&edges, &faces, n as usize);
+        assert!(inside.iter().enumerate().all(|(f, e)| e == [f as u32, f as u32 + 1]));
+    }
+}
