@@ -1,1 +1,37 @@
-//! Placeholder while the crate is being written.
+//! Stage 8: views of cell complexes, off-screen and in a window.
+//!
+//! A [`Scene`] is a list of named [`Drawable`]s — triangles, segments, points — with colour, opacity and an explode
+//! group; it is draw data and knows nothing of models. A [`View`] is what changes from picture to picture: the
+//! [`Camera`], the factors of the explosion, opacity, background. [`OffscreenRenderer`] turns both into an [`Image`];
+#![cfg_attr(
+    feature = "window",
+    doc = "[`view()`] shows them in a window, with the same renderer and sliders."
+)]
+#![cfg_attr(not(feature = "window"), doc = "the feature `window` adds a window with the same renderer.")]
+//!
+//! Transparent cells are blended exactly, whatever the order in which they are drawn. Cell edges are the real edges
+//! of cells, never those of a triangulation, and keep their width on the screen. Exploding a scene moves each group
+//! rigidly on the graphics card and rebuilds nothing.
+//!
+//! Features: `window` (default) brings winit and egui; without it the crate needs wgpu and png only.
+
+mod bounds;
+mod camera;
+mod cells;
+mod error;
+mod gpu;
+mod image;
+mod offscreen;
+mod palette;
+mod scene;
+mod view;
+
+pub use bounds::Bounds;
+pub use camera::{Camera, Projection};
+pub use cells::{CellShape, CellStyle, push_axes, push_cells};
+pub use error::ViewerError;
+pub use image::Image;
+pub use offscreen::OffscreenRenderer;
+pub use palette::{Coloring, INK, PALETTE, Rgb, SLATE, WHITE, palette_color};
+pub use scene::{CellRef, Drawable, GroupId, Scene};
+pub use view::View;

@@ -1,0 +1,378 @@
+//! The camera: a turntable about the z axis, with perspective or orthographic projection.
+//!
+//! The eye sits at `distance` from `target`, in the direction given by `azimuth` (about z, from x towards y) and
+//! `elevation` (above the xy plane). The three axes of the camera come from these angles in closed form, not from a
+//! cross product with an up vector, so that looking straight down is as good a view as any and no parameter that
+//! passes [`Camera::validate`] yields NaN.
+//!
+//! The *target plane* passes through the target, parallel to the screen. Both projections show it at the same size,
+//! pan and zoom keep its point under the cursor, so switching projection never loses the object.
+//!
+//! All lengths are world units in f64; the renderer rounds only the finished matrices, relative to the scene.
+
+use crate::{Bounds, ViewerError};
+use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// Turning angle per pixel of mouse motion: a drag over 400 pixels is half a turn.
+const RADIANS_PER_PIXEL: f64 = PI / 400.0;
+
+/// Part of the picture's half side left free around a fitted scene.
+const FIT_MARGIN: f64 = 0.06;
+
+/// Zoom is refused beyond these distances, in world units, to keep every product finite in f64.
+const DISTANCES: std::ops::RangeInclusive<f64> = 1e-90..=1e110;
+
+/// How depth becomes size.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Projection {
+    /// Near things are larger.
+    #[default]
+    Perspective,
+    /// Parallel lines stay parallel.
+    Orthographic,
+}
+
+/// Where the scene is seen from.
+///
+/// ```
+/// use lar_viewer::{Bounds, Camera};
+/// let cube = Bounds { min: [0.; 3], max: [1.; 3] };
+/// let camera = Camera::default().fit(&cube, 16.0 / 9.0);
+/// assert_eq!(camera.target, [0.5; 3]);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// The point that is turned about, in the middle of the picture.
+    pub target: [f64; 3],
+    /// From the target to the eye.
+    pub distance: f64,
+    /// Angle of the eye about the z axis, from x towards y, in radians.
+    pub azimuth: f64,
+    /// Angle of the eye above the xy plane, −π/2 to π/2.
+    pub elevation: f64,
+    /// Vertical opening angle in radians.
+    pub fov_y: f64,
+    /// Perspective or orthographic.
+    pub projection: Projection,
+}
+
+impl Default for Camera {
+    /// A three-quarter view of the unit sphere: x to the right and towards the eye, z up.
+    fn default() -> Self {
+        Self {
+            target: [0.0; 3],
+            distance: 6.0,
+            azimuth: -1.05,
+            elevation: 0.42,
+            fov_y: 0.45,
+            projection: Projection::Perspective,
+        }
+    }
+}
+
+impl Camera {
+    /// Checks that all parameters are finite and in range.
+    ///
+    /// # Errors
+    /// `InvalidView` with the parameter and its value.
+    pub fn validate(&self) -> Result<(), ViewerError> {
+        let within = |parameter, value: f64, ok: bool, expected| {
+            if ok { Ok(()) } else { Err(ViewerError::InvalidView { parameter, value, expected }) }
+        };
+        for x in self.target {
+            within("a camera target coordinate", x, x.abs() <= 1e108, "at most 1e108 in magnitude")?;
+        }
+        within("the camera distance", self.distance, DISTANCES.contains(&self.distance), "in 1e-90..=1e110")?;
+        within("the camera azimuth", self.azimuth, self.azimuth.abs() <= 1e6, "in ±1e6 radians")?;
+        within("the camera elevation", self.elevation, self.elevation.abs() <= FRAC_PI_2, "in ±π/2")?;
+        within("the field of view", self.fov_y, (1e-3..=3.0).contains(&self.fov_y), "in 0.001..=3 radians")
+    }
+
+    /// The camera's axes in the world: right, up, and back (from the target towards the eye); orthonormal and
+    /// right-handed.
+    #[must_use]
+    pub fn axes(&self) -> [[f64; 3]; 3] {
+        self.basis().map(|v| v.to_array())
+    }
+
+    fn basis(&self) -> [DVec3; 3] {
+        let (sin_a, cos_a) = self.azimuth.sin_cos();
+        let (sin_e, cos_e) = self.elevation.sin_cos();
+        let right = DVec3::new(-sin_a, cos_a, 0.0);
+        let back = DVec3::new(cos_e * cos_a, cos_e * sin_a, sin_e);
+        [right, back.cross(right), back]
+    }
+
+    /// Where the eye is; for an orthographic camera the centre of the picture lies on the line from here to the target.
+    #[must_use]
+    pub fn eye(&self) -> [f64; 3] {
+        (DVec3::from(self.target) + self.basis()[2] * self.distance).to_array()
+    }
+
+    /// The same view with the box in the middle and as large as fits in a picture of this aspect (width / height).
+    /// A box that is a point is shown at unit size.
+    #[must_use]
+    pub fn fit(self, bounds: &Bounds, aspect: f64) -> Self {
+        let tan_y = (0.5 * self.fov_y).tan() * (1.0 - FIT_MARGIN);
+        let tan = DVec2::new(tan_y * aspect, tan_y);
+        let center = DVec3::from(bounds.center());
+        let [right, up, back] = self.basis();
+        let needed = bounds.corners().map(|corner| {
+            let v = DVec3::from(corner) - center;
+            let side = (v.dot(right).abs() / tan.x).max(v.dot(up).abs() / tan.y);
+            match self.projection {
+                Projection::Perspective => side + v.dot(back),
+                Projection::Orthographic => side,
+            }
+        });
+        let distance = needed.fold(0.0, f64::max);
+        let distance = if distance <= *DISTANCES.start() { 1.0 / tan.min_element() } else { distance };
+        Self { target: center.to_array(), distance: distance.min(*DISTANCES.end()), ..self }
+    }
+
+    /// Turned by a mouse motion of this many pixels, x to the right and y down: the object follows the mouse.
+    #[must_use]
+    pub fn orbit(self, pixels: [f64; 2]) -> Self {
+        Self {
+            azimuth: (self.azimuth - pixels[0] * RADIANS_PER_PIXEL).rem_euclid(TAU),
+            elevation: (self.elevation + pixels[1] * RADIANS_PER_PIXEL).clamp(-FRAC_PI_2, FRAC_PI_2),
+            ..self
+        }
+    }
+
+    /// Moved parallel to the screen by a mouse motion of this many pixels, x to the right and y down, in a picture
+    /// `height` pixels high: the point of the target plane that was under the cursor stays under it.
+    #[must_use]
+    pub fn pan(self, pixels: [f64; 2], height: f64) -> Self {
+        let [right, up, _] = self.basis();
+        let scale = self.world_per_pixel(height);
+        let shift = right * (-pixels[0] * scale) + up * (pixels[1] * scale);
+        Self { target: (DVec3::from(self.target) + shift).to_array(), ..self }
+    }
+
+    /// Nearer by this factor (above 1 enlarges), keeping the point of the target plane under the cursor where it is.
+    /// `cursor` is in pixels from the middle of the picture, x to the right and y down.
+    #[must_use]
+    pub fn zoom(self, factor: f64, cursor: [f64; 2], height: f64) -> Self {
+        let distance = (self.distance / factor).clamp(*DISTANCES.start(), *DISTANCES.end());
+        let kept = 1.0 - distance / self.distance;
+        let nearer = self.pan(cursor.map(|c| -c * kept), height);
+        Self { distance, ..nearer }
+    }
+
+    /// With the other projection; the target plane keeps its size.
+    #[must_use]
+    pub fn toggle_projection(self) -> Self {
+        let projection = match self.projection {
+            Projection::Perspective => Projection::Orthographic,
+            Projection::Orthographic => Projection::Perspective,
+        };
+        Self { projection, ..self }
+    }
+
+    /// Length in the target plane that one pixel shows, in a picture `height` pixels high.
+    #[must_use]
+    pub fn world_per_pixel(&self, height: f64) -> f64 {
+        2.0 * self.distance * (0.5 * self.fov_y).tan() / height
+    }
+
+    /// Where the point appears: pixels from the middle of the picture, x to the right and y down; `None` when it is
+    /// not before the eye.
+    #[must_use]
+    pub fn project(&self, point: [f64; 3], height: f64) -> Option<[f64; 2]> {
+        let [right, up, _] = self.basis();
+        let v = DVec3::from(point) - DVec3::from(self.target);
+        let shrink = match self.projection {
+            Projection::Orthographic => 1.0,
+            Projection::Perspective => self.distance / self.depth(point),
+        };
+        let scale = shrink / self.world_per_pixel(height);
+        (0.0 < shrink && shrink.is_finite()).then(|| [v.dot(right) * scale, -v.dot(up) * scale])
+    }
+
+    /// The transformation from the world to camera axes with the eye at the origin and looking along −z.
+    pub(crate) fn view_from_world(&self) -> DMat4 {
+        let [right, up, back] = self.basis();
+        let rotation = DMat3::from_cols(right, up, back).transpose();
+        let target = rotation * DVec3::from(self.target);
+        DMat4::from_mat3_translation(rotation, -target - DVec3::new(0.0, 0.0, self.distance))
+    }
+
+    /// The same camera for a world whose origin is `center` and whose unit of length is `unit`.
+    pub(crate) fn relative_to(self, center: [f64; 3], unit: f64) -> Self {
+        let target = std::array::from_fn(|k| (self.target[k] - center[k]) / unit);
+        Self { target, distance: self.distance / unit, ..self }
+    }
+
+    /// How far the point lies before the eye, along the line of sight.
+    pub(crate) fn depth(&self, point: [f64; 3]) -> f64 {
+        self.distance - (DVec3::from(point) - DVec3::from(self.target)).dot(self.basis()[2])
+    }
+
+    /// The projection to clip space (depth 0 at `near` to 1 at `far`) in a picture of this aspect.
+    pub(crate) fn clip_from_view(&self, aspect: f64, near: f64, far: f64) -> DMat4 {
+        let cot = 1.0 / (0.5 * self.fov_y).tan();
+        match self.projection {
+            Projection::Perspective => {
+                let z = far / (near - far);
+                DMat4::from_cols(
+                    DVec4::new(cot / aspect, 0.0, 0.0, 0.0),
+                    DVec4::new(0.0, cot, 0.0, 0.0),
+                    DVec4::new(0.0, 0.0, z, -1.0),
+                    DVec4::new(0.0, 0.0, near * z, 0.0),
+                )
+            }
+            Projection::Orthographic => {
+                let scale = cot / self.distance;
+                let z = 1.0 / (near - far);
+                DMat4::from_cols(
+                    DVec4::new(scale / aspect, 0.0, 0.0, 0.0),
+                    DVec4::new(0.0, scale, 0.0, 0.0),
+                    DVec4::new(0.0, 0.0, z, 0.0),
+                    DVec4::new(0.0, 0.0, near * z, 1.0),
+                )
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn camera() -> impl Strategy<Value = Camera> {
+        let target = [-10.0..10.0_f64, -10.0..10.0_f64, -10.0..10.0_f64];
+        let angles = (-7.0..7.0_f64, -FRAC_PI_2..=FRAC_PI_2);
+        (target, 0.1..100.0_f64, angles, 0.1..2.0_f64, any::<bool>()).prop_map(
+            |(target, distance, (azimuth, elevation), fov_y, perspective)| Camera {
+                target,
+                distance,
+                azimuth,
+                elevation,
+                fov_y,
+                projection: if perspective { Projection::Perspective } else { Projection::Orthographic },
+            },
+        )
+    }
+
+    fn on_target_plane(camera: &Camera, x: f64, y: f64) -> [f64; 3] {
+        let [right, up, _] = camera.basis();
+        (DVec3::from(camera.target) + right * x + up * y).to_array()
+    }
+
+    #[track_caller]
+    fn assert_near(a: [f64; 2], b: [f64; 2], tolerance: f64) {
+        assert!(DVec2::from(a).distance(DVec2::from(b)) <= tolerance, "{a:?} is not {b:?}");
+    }
+
+    proptest! {
+        #[test]
+        fn axes_are_orthonormal_and_right_handed(camera in camera()) {
+            let [r, u, b] = camera.basis();
+            let m = DMat3::from_cols(r, u, b);
+            prop_assert!((m * m.transpose()).abs_diff_eq(DMat3::IDENTITY, 1e-12));
+            prop_assert!((m.determinant() - 1.0).abs() < 1e-12);
+            prop_assert!(0.0 <= u.z, "up never points down");
+        }
+
+        #[test]
+        fn pan_keeps_the_point_under_the_cursor(camera in camera(), x in -300.0..300.0, y in -300.0..300.0) {
+            let p = on_target_plane(&camera, 0.1, -0.2);
+            let before = camera.project(p, 720.0).unwrap();
+            let after = camera.pan([x, y], 720.0).project(p, 720.0).unwrap();
+            assert_near(after, [before[0] + x, before[1] + y], 1e-6);
+        }
+
+        #[test]
+        fn zoom_keeps_the_point_under_the_cursor(camera in camera(), factor in 0.2..5.0, x in -1.0..1.0, y in -1.0..1.0) {
+            let p = on_target_plane(&camera, x, y);
+            let cursor = camera.project(p, 720.0).unwrap();
+            let zoomed = camera.zoom(factor, cursor, 720.0);
+            assert_near(zoomed.project(p, 720.0).unwrap(), cursor, 1e-6 * (1.0 + cursor[0].abs() + cursor[1].abs()));
+            prop_assert!((zoomed.distance * factor - camera.distance).abs() < 1e-9 * camera.distance);
+        }
+
+        #[test]
+        fn fit_shows_the_whole_box_and_touches_the_margin(camera in camera(), aspect in 0.3..3.0, p in prop::array::uniform3(-5.0..5.0_f64), q in prop::array::uniform3(-5.0..5.0_f64)) {
+            let bounds = Bounds::of([p, q]).unwrap();
+            let fitted = camera.fit(&bounds, aspect);
+            fitted.validate().unwrap();
+            let reach = bounds.corners().map(|c| {
+                let [x, y] = fitted.project(c, 2.0).expect("before the eye");
+                (x.abs() / aspect).max(y.abs())
+            });
+            let reach = reach.fold(0.0, f64::max);
+            prop_assert!((reach - (1.0 - FIT_MARGIN)).abs() < 1e-6, "{reach}");
+        }
+
+        #[test]
+        fn orbit_stays_valid_and_keeps_target_and_distance(camera in camera(), x in -1e9..1e9, y in -1e9..1e9) {
+            let turned = camera.orbit([x, y]);
+            turned.validate().unwrap();
+            prop_assert_eq!(turned.target, camera.target);
+            prop_assert_eq!(turned.distance, camera.distance);
+        }
+
+        #[test]
+        fn matrices_agree_with_project(camera in camera(), p in prop::array::uniform3(-5.0..5.0_f64), aspect in 0.3..3.0) {
+            let clip = camera.clip_from_view(aspect, 1e-3, 1e3) * camera.view_from_world() * DVec3::from(p).extend(1.0);
+            let Some([x, y]) = camera.project(p, 2.0) else { return Ok(()) };
+            if clip.w < 1e-3 { return Ok(()) }
+            assert_near([clip.x / clip.w * aspect, clip.y / clip.w], [x, -y], 1e-6 * (1.0 + x.abs() + y.abs()));
+        }
+    }
+
+    #[test]
+    fn depth_runs_from_zero_at_near_to_one_at_far() {
+        for camera in [Camera::default(), Camera::default().toggle_projection()] {
+            for (z, expected) in [(-2.0, 0.0), (-50.0, 1.0)] {
+                let clip = camera.clip_from_view(1.5, 2.0, 50.0) * DVec4::new(0.0, 0.0, z, 1.0);
+                assert!((clip.z / clip.w - expected).abs() < 1e-12, "{:?} at {z}", camera.projection);
+            }
+        }
+    }
+
+    #[test]
+    fn default_view_has_z_up_and_x_to_the_right() {
+        let camera = Camera::default();
+        let [x, y, z] = [[1., 0., 0.], [0., 1., 0.], [0., 0., 1.]].map(|p| camera.project(p, 100.0).unwrap());
+        assert!(0.0 < x[0] && 0.0 < x[1], "x points right and towards the eye: {x:?}");
+        assert!(0.0 < y[0] && y[1] < 0.0, "y points right and away: {y:?}");
+        assert!(z[0].abs() < 1e-9 && z[1] < 0.0, "z points up: {z:?}");
+    }
+
+    #[test]
+    fn dragging_right_turns_the_near_side_to_the_right() {
+        let camera = Camera::default();
+        let near = (DVec3::from(camera.target) + camera.basis()[2]).to_array();
+        assert!(0.0 < camera.orbit([10.0, 0.0]).project(near, 100.0).unwrap()[0]);
+        assert!(0.0 < camera.orbit([0.0, 10.0]).project(near, 100.0).unwrap()[1]);
+    }
+
+    #[track_caller]
+    fn check_refused(camera: Camera, named: &str) {
+        let error = camera.validate().unwrap_err().to_string();
+        assert!(error.contains(named), "{error}");
+    }
+
+    #[test]
+    fn senseless_cameras_are_refused() {
+        let good = Camera::default();
+        check_refused(Camera { distance: 0.0, ..good }, "the camera distance is 0");
+        check_refused(Camera { distance: f64::NAN, ..good }, "NaN");
+        check_refused(Camera { target: [0.0, f64::INFINITY, 0.0], ..good }, "target coordinate is inf");
+        check_refused(Camera { azimuth: f64::NAN, ..good }, "azimuth");
+        check_refused(Camera { elevation: 1.6, ..good }, "elevation is 1.6");
+        check_refused(Camera { fov_y: -0.1, ..good }, "field of view is -0.1");
+    }
+
+    #[test]
+    fn a_box_without_extent_is_shown_at_unit_size() {
+        let point = Bounds { min: [3.0; 3], max: [3.0; 3] };
+        let camera = Camera::default().fit(&point, 1.0);
+        camera.validate().unwrap();
+        assert_eq!(camera.target, [3.0; 3]);
+    }
+}

@@ -1,0 +1,170 @@
+//! The graphics device: which adapter is taken, and how its errors come back.
+//!
+//! Adapters are asked for by backend, the native ones first and OpenGL last, and within a backend the discrete card
+//! before the integrated one before a software driver. `WGPU_BACKEND` (`vulkan`, `gl`, …) narrows the choice.
+
+use crate::ViewerError;
+use std::sync::{Arc, Mutex, PoisonError};
+use wgpu::{Adapter, Backends, DeviceType, DownlevelFlags, Instance, Limits};
+
+/// Storage buffers that the layer shaders use at once.
+const STORAGE_BUFFERS: u32 = 4;
+
+/// A device with the queue, limits and name of its adapter.
+pub(crate) struct Context {
+    pub(crate) device: wgpu::Device,
+    pub(crate) queue: wgpu::Queue,
+    pub(crate) limits: Limits,
+    pub(crate) adapter_name: String,
+    /// The adapter draws on the processor.
+    pub(crate) is_software: bool,
+    first_error: Arc<Mutex<Option<String>>>,
+}
+
+impl Context {
+    /// The best adapter of this machine, no display needed.
+    pub(crate) fn off_screen() -> Result<Self, ViewerError> {
+        let instance = Instance::new(wgpu::InstanceDescriptor::new_without_display_handle().with_env());
+        Self::on(&best_adapter(&instance, None)?)
+    }
+
+    /// The device of an adapter.
+    pub(crate) fn on(adapter: &Adapter) -> Result<Self, ViewerError> {
+        let info = adapter.get_info();
+        let adapter_name = format!("{} ({})", info.name, info.backend);
+        let limits = adapter.limits();
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("lar-viewer"),
+            required_limits: limits.clone(),
+            memory_hints: wgpu::MemoryHints::MemoryUsage,
+            ..Default::default()
+        };
+        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
+            .map_err(|e| ViewerError::Gpu { adapter: adapter_name.clone(), message: e.to_string() })?;
+        let first_error = Arc::new(Mutex::new(None));
+        let slot = Arc::clone(&first_error);
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            slot.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert_with(|| error.to_string());
+        }));
+        let is_software = info.device_type == DeviceType::Cpu;
+        Ok(Self { device, queue, limits, adapter_name, is_software, first_error })
+    }
+
+    /// The first error that the device has reported since the last call.
+    pub(crate) fn check(&self) -> Result<(), ViewerError> {
+        match self.first_error.lock().unwrap_or_else(PoisonError::into_inner).take() {
+            Some(message) => Err(self.error(message)),
+            None => Ok(()),
+        }
+    }
+
+    /// Waits until everything that was submitted is done.
+    pub(crate) fn wait(&self) -> Result<(), ViewerError> {
+        self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|e| self.error(e.to_string()))?;
+        self.check()
+    }
+
+    /// The bytes of a buffer that was made with `MAP_READ`, when all work on it is done.
+    pub(crate) fn read<R>(
+        &self,
+        buffer: &wgpu::Buffer,
+        read: impl FnOnce(&[u8]) -> R,
+    ) -> Result<R, ViewerError> {
+        let (sender, receiver) = std::sync::mpsc::channel();
+        buffer.slice(..).map_async(wgpu::MapMode::Read, move |result| {
+            // The receiver lives until this has been called, unless waiting failed and said so.
+            let _ = sender.send(result);
+        });
+        self.wait()?;
+        let mapped = receiver.recv().map_err(|e| self.error(e.to_string()))?;
+        mapped.map_err(|e| self.error(e.to_string()))?;
+        let value = {
+            let bytes = buffer.slice(..).get_mapped_range().map_err(|e| self.error(e.to_string()))?;
+            read(&bytes)
+        };
+        buffer.unmap();
+        Ok(value)
+    }
+
+    /// A buffer of these bytes; never empty, since empty buffers cannot be bound.
+    pub(crate) fn upload(
+        &self,
+        what: &'static str,
+        bytes: &[u8],
+        usage: wgpu::BufferUsages,
+    ) -> Result<wgpu::Buffer, ViewerError> {
+        let size = (bytes.len() as u64).next_multiple_of(4).max(48);
+        let storage = usage.contains(wgpu::BufferUsages::STORAGE);
+        let limit = if storage { self.largest_storage() } else { self.limits.max_buffer_size };
+        if limit < size {
+            return Err(ViewerError::SceneTooLarge {
+                what,
+                bytes: size,
+                limit,
+                adapter: self.adapter_name.clone(),
+            });
+        }
+        let usage = usage | wgpu::BufferUsages::COPY_DST;
+        let descriptor = wgpu::BufferDescriptor { label: Some(what), size, usage, mapped_at_creation: false };
+        let buffer = self.device.create_buffer(&descriptor);
+        self.check()?;
+        self.queue.write_buffer(&buffer, 0, bytes);
+        Ok(buffer)
+    }
+
+    /// Bytes of the largest storage buffer that can be bound whole.
+    pub(crate) fn largest_storage(&self) -> u64 {
+        self.limits.max_buffer_size.min(self.limits.max_storage_buffer_binding_size)
+    }
+
+    fn error(&self, message: String) -> ViewerError {
+        ViewerError::Gpu { adapter: self.adapter_name.clone(), message }
+    }
+}
+
+/// The best adapter that has what the renderer needs and, given a surface, can draw on it.
+pub(crate) fn best_adapter(
+    instance: &Instance,
+    surface: Option<&wgpu::Surface<'_>>,
+) -> Result<Adapter, ViewerError> {
+    let allowed = Backends::from_env().unwrap_or(Backends::all());
+    let mut passed_over = Vec::new();
+    for backends in [Backends::all() - Backends::GL, Backends::GL] {
+        let mut adapters = pollster::block_on(instance.enumerate_adapters(backends & allowed));
+        adapters.sort_by_cached_key(|a| (rank(a.get_info().device_type), a.get_info().name));
+        for adapter in adapters {
+            match lacking(&adapter, surface) {
+                None => return Ok(adapter),
+                Some(reason) => {
+                    let info = adapter.get_info();
+                    passed_over.push(format!("{} ({}) {reason}", info.name, info.backend));
+                }
+            }
+        }
+    }
+    let found = if passed_over.is_empty() { "none found".to_owned() } else { passed_over.join("; ") };
+    Err(ViewerError::NoAdapter { found })
+}
+
+fn rank(device_type: DeviceType) -> u8 {
+    match device_type {
+        DeviceType::DiscreteGpu => 0,
+        DeviceType::IntegratedGpu => 1,
+        DeviceType::VirtualGpu => 2,
+        DeviceType::Cpu => 3,
+        DeviceType::Other => 4,
+    }
+}
+
+fn lacking(adapter: &Adapter, surface: Option<&wgpu::Surface<'_>>) -> Option<&'static str> {
+    let needed = DownlevelFlags::FRAGMENT_WRITABLE_STORAGE | DownlevelFlags::VERTEX_STORAGE;
+    if !adapter.get_downlevel_capabilities().flags.contains(needed)
+        || adapter.limits().max_storage_buffers_per_shader_stage < STORAGE_BUFFERS
+    {
+        Some("has too few storage buffers")
+    } else if surface.is_some_and(|s| !adapter.is_surface_supported(s)) {
+        Some("cannot draw on this window")
+    } else {
+        None
+    }
+}

@@ -1,0 +1,148 @@
+//! The parameters of a frame as the shaders read them.
+
+use crate::{Bounds, Projection, View};
+use bytemuck::{Pod, Zeroable};
+
+/// Mirror of `Frame` in `common.wgsl`, 192 bytes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub(crate) struct Frame {
+    pub(crate) view_from_scene: [[f32; 4]; 4],
+    pub(crate) clip_from_view: [[f32; 4]; 4],
+    pub(crate) explode: [f32; 3],
+    pub(crate) opacity: f32,
+    pub(crate) viewport: [f32; 2],
+    pub(crate) samples_per_pixel: f32,
+    pub(crate) sample_size: f32,
+    pub(crate) near: f32,
+    pub(crate) perspective: u32,
+    pub(crate) hide_edges: u32,
+    pub(crate) supersample: u32,
+    pub(crate) band_row: u32,
+    pub(crate) band: u32,
+    pub(crate) node_capacity: u32,
+    pub(crate) padding: u32,
+}
+
+/// Size of a picture and how finely it is sampled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Raster {
+    /// Pixels.
+    pub(crate) width: u32,
+    /// Pixels.
+    pub(crate) height: u32,
+    /// Samples per pixel and axis.
+    pub(crate) samples: u32,
+    /// Pixels of the picture for each pixel of line width or point size; the scale factor of the screen.
+    pub(crate) scale: f32,
+}
+
+impl Raster {
+    /// Width and height in samples.
+    pub(crate) fn size(&self) -> [u32; 2] {
+        [self.width * self.samples, self.height * self.samples]
+    }
+}
+
+/// Where the numbers of a batch lie in the world: p_world = center + unit · p_scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Placement {
+    pub(crate) center: [f64; 3],
+    pub(crate) unit: f64,
+}
+
+impl Placement {
+    /// A world position, to be rounded to f32 where it is small.
+    pub(crate) fn scene_from_world(&self, p: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|k| (p[k] - self.center[k]) / self.unit)
+    }
+}
+
+impl Frame {
+    /// The parameters of a view of a scene placed in the world; `bounds` is the exploded scene.
+    pub(crate) fn new(view: &View, raster: &Raster, placement: &Placement, bounds: Option<Bounds>) -> Self {
+        let camera = view.camera.relative_to(placement.center, placement.unit);
+        let [width, height] = raster.size().map(f64::from);
+        let (center, radius) = bounds.map_or(([0.0; 3], 1.0), |b| {
+            (placement.scene_from_world(b.center()), b.radius() / placement.unit)
+        });
+        let (depth, reach) = (camera.depth(center), 1.1 * radius.max(1e-3 * camera.distance));
+        let (near, far) = match camera.projection {
+            Projection::Orthographic => (depth - reach, depth + reach),
+            Projection::Perspective => depth_range(depth, reach, camera.distance),
+        };
+        let perspective = camera.projection == Projection::Perspective;
+        let sample_size = camera.world_per_pixel(height) / if perspective { camera.distance } else { 1.0 };
+        Self {
+            view_from_scene: camera.view_from_world().as_mat4().to_cols_array_2d(),
+            clip_from_view: camera.clip_from_view(width / height, near, far).as_mat4().to_cols_array_2d(),
+            explode: view.explode.map(|s| s - 1.0),
+            opacity: view.opacity,
+            viewport: [width as f32, height as f32],
+            samples_per_pixel: raster.samples as f32 * raster.scale,
+            sample_size: sample_size as f32,
+            near: near as f32,
+            perspective: u32::from(perspective),
+            hide_edges: u32::from(!view.edges),
+            supersample: raster.samples,
+            band_row: 0,
+            band: 0,
+            node_capacity: 0,
+            padding: 0,
+        }
+    }
+}
+
+/// Nearest and farthest depth of a sphere of radius `reach` whose centre lies at `depth`; the part of it that is
+/// behind the eye, or so near that the depth buffer would suffer, is cut off.
+fn depth_range(depth: f64, reach: f64, distance: f64) -> (f64, f64) {
+    let far = (depth + reach).max(2e-3 * distance);
+    ((depth - reach).max(1e-4 * far), far)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Camera;
+    use glam::{Mat4, Vec3};
+
+    #[track_caller]
+    fn check_inside(camera: Camera, bounds: Bounds) {
+        let placement = Placement { center: bounds.center(), unit: bounds.radius() };
+        let view = View { camera: camera.fit(&bounds, 1.5), ..View::default() };
+        let raster = Raster { width: 300, height: 200, samples: 2, scale: 1.0 };
+        let frame = Frame::new(&view, &raster, &placement, Some(bounds));
+        let clip_from_scene = Mat4::from_cols_array_2d(&frame.clip_from_view)
+            * Mat4::from_cols_array_2d(&frame.view_from_scene);
+        for corner in bounds.corners() {
+            let scene = Vec3::from(placement.scene_from_world(corner).map(|x| x as f32));
+            let clip = clip_from_scene.project_point3(scene);
+            let inside = clip.x.abs() < 1.0 && clip.y.abs() < 1.0 && 0.0 < clip.z && clip.z < 1.0;
+            assert!(inside, "{corner:?} goes to {clip} with {camera:?}");
+        }
+    }
+
+    #[test]
+    fn a_fitted_scene_lies_inside_the_picture_at_any_size_and_place() {
+        for camera in [Camera::default(), Camera::default().toggle_projection()] {
+            for scale in [1e-30, 1e-3, 1.0, 1e20] {
+                for offset in [0.0, 1e6] {
+                    let at = |x: f64| (offset + x) * scale;
+                    check_inside(
+                        camera,
+                        Bounds { min: [at(-1.0), at(0.0), at(3.0)], max: [at(2.0), at(1.0), at(5.0)] },
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn depth_range_stays_before_the_eye() {
+        assert_eq!(depth_range(5.0, 1.0, 5.0), (4.0, 6.0));
+        let (near, far) = depth_range(0.5, 1.0, 0.5);
+        assert!(0.0 < near && near < far, "inside the scene: {near} {far}");
+        let (near, far) = depth_range(-9.0, 1.0, 2.0);
+        assert!(0.0 < near && near < far, "scene behind the eye: {near} {far}");
+    }
+}

@@ -1,0 +1,10 @@
+//! Everything that talks to the graphics card.
+
+pub(crate) mod batch;
+pub(crate) mod context;
+pub(crate) mod frame;
+pub(crate) mod layers;
+pub(crate) mod pipelines;
+pub(crate) mod renderer;
+pub(crate) mod shaders;
+pub(crate) mod targets;

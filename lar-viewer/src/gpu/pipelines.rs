@@ -1,0 +1,251 @@
+//! The fixed part of the renderer: bind group layouts and pipelines, made once per device.
+//!
+//! Each kind of geometry has two pipelines: *opaque*, with a depth test, and *layer*, which stores fragments in the
+//! lists of the A-buffer. Three more steps work on the whole screen.
+
+use super::batch::{Dot, Line, Vertex};
+use super::frame::Frame;
+use super::shaders;
+use wgpu::{BindGroupLayout, Device, PipelineLayout, RenderPipeline, ShaderStages, TextureFormat};
+
+/// Colour of samples and of the finished picture.
+pub(crate) const COLOR: TextureFormat = TextureFormat::Rgba8Unorm;
+/// Depth of the opaque surface, as the layer shaders read it: OpenGL cannot load from depth textures.
+pub(crate) const OPAQUE_DEPTH: TextureFormat = TextureFormat::R32Float;
+/// Depth buffer of the opaque pass.
+pub(crate) const DEPTH: TextureFormat = TextureFormat::Depth32Float;
+
+/// The two ways of drawing one kind of geometry.
+pub(crate) struct Pair {
+    pub(crate) opaque: RenderPipeline,
+    pub(crate) layer: RenderPipeline,
+}
+
+/// Layouts and pipelines.
+pub(crate) struct Pipelines {
+    pub(crate) frame_layout: BindGroupLayout,
+    pub(crate) layers_layout: BindGroupLayout,
+    pub(crate) samples_layout: BindGroupLayout,
+    pub(crate) mesh: Pair,
+    pub(crate) lines: Pair,
+    pub(crate) points: Pair,
+    pub(crate) resolve: RenderPipeline,
+    pub(crate) reduce: RenderPipeline,
+}
+
+impl Pipelines {
+    pub(crate) fn new(device: &Device) -> Self {
+        let frame_layout = frame_layout(device);
+        let layers_layout = layers_layout(device);
+        let samples_layout = bind_group_layout(device, "samples", &[texture_entry(0)]);
+        let opaque = pipeline_layout(device, &[&frame_layout]);
+        let layer = pipeline_layout(device, &[&frame_layout, &layers_layout]);
+        let reduce = pipeline_layout(device, &[&frame_layout, &samples_layout]);
+        let maker = Maker { device, opaque: &opaque, layer: &layer };
+        Self {
+            mesh: maker.mesh(),
+            lines: maker.lines(),
+            points: maker.points(),
+            resolve: whole_screen(device, shaders::RESOLVE, "resolve", &layer, Some(OVER)),
+            reduce: whole_screen(device, shaders::REDUCE, "reduce", &reduce, None),
+            frame_layout,
+            layers_layout,
+            samples_layout,
+        }
+    }
+}
+
+/// Front over back, with the front's colour multiplied by its coverage already.
+const OVER: wgpu::BlendState = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
+
+fn frame_layout(device: &Device) -> BindGroupLayout {
+    let frame = wgpu::BindGroupLayoutEntry {
+        binding: 0,
+        visibility: ShaderStages::VERTEX_FRAGMENT,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: true,
+            min_binding_size: wgpu::BufferSize::new(size_of::<Frame>() as u64),
+        },
+        count: None,
+    };
+    bind_group_layout(device, "frame", &[frame, storage_entry(1, ShaderStages::VERTEX, true)])
+}
+
+fn layers_layout(device: &Device) -> BindGroupLayout {
+    let writable = |binding| storage_entry(binding, ShaderStages::FRAGMENT, false);
+    bind_group_layout(device, "layers", &[writable(0), writable(1), writable(2), texture_entry(3)])
+}
+
+fn storage_entry(binding: u32, visibility: ShaderStages, read_only: bool) -> wgpu::BindGroupLayoutEntry {
+    let ty = wgpu::BufferBindingType::Storage { read_only };
+    let ty = wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
+    wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None }
+}
+
+fn texture_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    let ty = wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable: false },
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    };
+    wgpu::BindGroupLayoutEntry { binding, visibility: ShaderStages::FRAGMENT, ty, count: None }
+}
+
+fn bind_group_layout(
+    device: &Device,
+    label: &str,
+    entries: &[wgpu::BindGroupLayoutEntry],
+) -> BindGroupLayout {
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries })
+}
+
+fn pipeline_layout(device: &Device, groups: &[&BindGroupLayout]) -> PipelineLayout {
+    let groups: Vec<_> = groups.iter().copied().map(Some).collect();
+    device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: None,
+        bind_group_layouts: &groups,
+        immediate_size: 0,
+    })
+}
+
+fn shader(device: &Device, source: &'static str) -> wgpu::ShaderModule {
+    let source = wgpu::ShaderSource::Wgsl(source.into());
+    device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source })
+}
+
+fn whole_screen(
+    device: &Device,
+    source: &'static str,
+    entry: &str,
+    layout: &PipelineLayout,
+    blend: Option<wgpu::BlendState>,
+) -> RenderPipeline {
+    let module = shader(device, source);
+    let target = wgpu::ColorTargetState { format: COLOR, blend, write_mask: wgpu::ColorWrites::ALL };
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(entry),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("whole_screen"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: &[],
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: None,
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some(entry),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &[Some(target)],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+/// One kind of geometry: entry points, topology, and the layout of what is read per vertex or instance.
+struct Kind<'a> {
+    module: &'a wgpu::ShaderModule,
+    name: &'a str,
+    topology: wgpu::PrimitiveTopology,
+    buffer: wgpu::VertexBufferLayout<'a>,
+}
+
+struct Maker<'a> {
+    device: &'a Device,
+    opaque: &'a PipelineLayout,
+    layer: &'a PipelineLayout,
+}
+
+impl Maker<'_> {
+    fn mesh(&self) -> Pair {
+        self.pair(&Kind {
+            module: &shader(self.device, shaders::MESH),
+            name: "mesh",
+            topology: wgpu::PrimitiveTopology::TriangleList,
+            buffer: wgpu::VertexBufferLayout {
+                array_stride: size_of::<Vertex>() as u64,
+                step_mode: wgpu::VertexStepMode::Vertex,
+                attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Snorm16x4],
+            },
+        })
+    }
+
+    fn lines(&self) -> Pair {
+        self.pair(&Kind {
+            module: &shader(self.device, shaders::LINES),
+            name: "line",
+            topology: wgpu::PrimitiveTopology::TriangleStrip,
+            buffer: wgpu::VertexBufferLayout {
+                array_stride: size_of::<Line>() as u64,
+                step_mode: wgpu::VertexStepMode::Instance,
+                attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Float32x3, 3 => Float32],
+            },
+        })
+    }
+
+    fn points(&self) -> Pair {
+        self.pair(&Kind {
+            module: &shader(self.device, shaders::POINTS),
+            name: "point",
+            topology: wgpu::PrimitiveTopology::TriangleStrip,
+            buffer: wgpu::VertexBufferLayout {
+                array_stride: size_of::<Dot>() as u64,
+                step_mode: wgpu::VertexStepMode::Instance,
+                attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Float32],
+            },
+        })
+    }
+
+    fn pair(&self, kind: &Kind<'_>) -> Pair {
+        let target = |format, write_mask| Some(wgpu::ColorTargetState { format, blend: None, write_mask });
+        let depth = wgpu::DepthStencilState {
+            format: DEPTH,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Less),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        };
+        let opaque = [target(COLOR, wgpu::ColorWrites::ALL), target(OPAQUE_DEPTH, wgpu::ColorWrites::ALL)];
+        let layer = [target(COLOR, wgpu::ColorWrites::empty())];
+        Pair {
+            opaque: self.pipeline(kind, "opaque", self.opaque, &opaque, Some(depth)),
+            layer: self.pipeline(kind, "layer", self.layer, &layer, None),
+        }
+    }
+
+    fn pipeline(
+        &self,
+        kind: &Kind<'_>,
+        way: &str,
+        layout: &PipelineLayout,
+        targets: &[Option<wgpu::ColorTargetState>],
+        depth_stencil: Option<wgpu::DepthStencilState>,
+    ) -> RenderPipeline {
+        let (vertex, fragment) = (format!("{}_vertex", kind.name), format!("{}_{way}", kind.name));
+        self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(&fragment),
+            layout: Some(layout),
+            vertex: wgpu::VertexState {
+                module: kind.module,
+                entry_point: Some(&vertex),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: &[Some(kind.buffer.clone())],
+            },
+            primitive: wgpu::PrimitiveState { topology: kind.topology, ..Default::default() },
+            depth_stencil,
+            multisample: wgpu::MultisampleState::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: kind.module,
+                entry_point: Some(&fragment),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                targets,
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}

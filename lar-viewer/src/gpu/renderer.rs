@@ -1,0 +1,374 @@
+//! The renderer of window and off-screen pictures alike.
+//!
+//! A frame is drawn at several samples per pixel and averaged at the end, in these passes:
+//!
+//! 1. *opaque*: triangles, lines and points with a depth test, into a colour and a depth texture;
+//! 2. *layers*: everything transparent, each fragment in front of the opaque surface into the list of its sample;
+//! 3. *resolve*: the lists sorted by depth and blended over the opaque colour;
+//! 4. *reduce*: samples to pixels.
+//!
+//! Supersampling, not multisampling: with lists per sample, transparent outlines, lines and points become as smooth
+//! as opaque ones, the depth texture can be read on every backend, and 1 to 8 samples a side can be had where
+//! multisampling offers only four in all. On the software drivers, which servers draw with, four multisamples take
+//! about as long as four whole samples.
+
+use super::batch::{Batch, Sorted};
+use super::context::Context;
+use super::frame::{Frame, Placement, Raster};
+use super::layers::{Band, Layers};
+use super::pipelines::Pipelines;
+use super::targets::Targets;
+use crate::scene::Extents;
+use crate::{Image, Scene, View, ViewerError};
+use wgpu::{Buffer, BufferUsages, CommandEncoder, LoadOp, Operations, RenderPass, StoreOp};
+
+/// Distance of the frames of two bands in the uniform buffer: the largest alignment that any adapter asks for.
+const FRAME_STRIDE: usize = 256;
+/// Samples in one frame at most: their textures take 12 bytes each.
+const SAMPLE_LIMIT: u64 = 1 << 26;
+
+/// A scene on the graphics card.
+pub(crate) struct SceneBuffers {
+    placement: Placement,
+    extents: Extents,
+    parts: Buffer,
+    vertices: Uploaded,
+    lines: Uploaded,
+    points: Uploaded,
+}
+
+/// Vertices or instances in a buffer, the first `n_opaque` opaque.
+struct Uploaded {
+    buffer: Buffer,
+    n_opaque: u32,
+    n: u32,
+}
+
+impl SceneBuffers {
+    pub(crate) fn new(context: &Context, scene: &Scene) -> Result<Self, ViewerError> {
+        let batch = Batch::new(scene);
+        Ok(Self {
+            parts: context.upload("drawables", bytemuck::cast_slice(&batch.parts), BufferUsages::STORAGE)?,
+            vertices: Uploaded::new(context, "triangles", &batch.vertices)?,
+            lines: Uploaded::new(context, "segments", &batch.lines)?,
+            points: Uploaded::new(context, "points", &batch.dots)?,
+            placement: batch.placement,
+            extents: batch.extents,
+        })
+    }
+
+    /// The boxes of its drawables.
+    #[cfg(feature = "window")]
+    pub(crate) fn extents(&self) -> &Extents {
+        &self.extents
+    }
+}
+
+impl Uploaded {
+    fn new<T: bytemuck::Pod>(
+        context: &Context,
+        what: &'static str,
+        sorted: &Sorted<T>,
+    ) -> Result<Self, ViewerError> {
+        let buffer = context.upload(what, bytemuck::cast_slice(&sorted.elements), BufferUsages::VERTEX)?;
+        // An upload that passed the limit of buffers has fewer than 2^32 elements on every backend.
+        Ok(Self { buffer, n_opaque: sorted.n_opaque as u32, n: sorted.elements.len() as u32 })
+    }
+}
+
+/// Draws scenes into textures.
+pub(crate) struct Renderer {
+    pub(crate) context: Context,
+    pipelines: Pipelines,
+    targets: Option<Targets>,
+    layers: Option<Layers>,
+}
+
+impl Renderer {
+    pub(crate) fn new(context: Context) -> Result<Self, ViewerError> {
+        let pipelines = Pipelines::new(&context.device);
+        context.check()?;
+        Ok(Self { context, pipelines, targets: None, layers: None })
+    }
+
+    /// Draws the scene and returns the picture, `width` × `height` pixels of 8-bit RGBA.
+    pub(crate) fn draw(
+        &mut self,
+        scene: &SceneBuffers,
+        view: &View,
+        width: u32,
+        height: u32,
+    ) -> Result<&Targets, ViewerError> {
+        view.validate()?;
+        let raster = self.raster(view, width, height)?;
+        let targets = match self.targets.take() {
+            Some(targets) if targets.raster == raster => targets,
+            _ => {
+                self.layers = None;
+                Targets::new(&self.context, &self.pipelines, raster)
+            }
+        };
+        let frame = Frame::new(view, &raster, &scene.placement, scene.extents.bounds(view.explode));
+        let draw = Draw { renderer: self, scene, view, frame, targets: &targets };
+        let layers = if draw.has_layers() { draw.with_layers()? } else { draw.without_layers()? };
+        self.layers = layers.or(self.layers.take());
+        Ok(self.targets.insert(targets))
+    }
+
+    /// The pixels of the picture that was drawn last.
+    pub(crate) fn read_picture(&self) -> Result<Image, ViewerError> {
+        let Some(targets) = &self.targets else { return Ok(Image::new(0, 0, Vec::new())) };
+        let Raster { width, height, .. } = targets.raster;
+        let row_bytes = 4 * width;
+        let padded = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let buffer = self.context.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("picture"),
+            size: u64::from(padded) * u64::from(height),
+            usage: BufferUsages::COPY_DST | BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let layout =
+            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded), rows_per_image: None };
+        let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
+        let mut encoder =
+            self.context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        encoder.copy_texture_to_buffer(
+            targets.picture.as_image_copy(),
+            wgpu::TexelCopyBufferInfo { buffer: &buffer, layout },
+            size,
+        );
+        self.context.queue.submit([encoder.finish()]);
+        let rows = |bytes: &[u8]| {
+            bytes.chunks_exact(padded as usize).flat_map(|row| &row[..row_bytes as usize]).copied().collect()
+        };
+        Ok(Image::new(width, height, self.context.read(&buffer, rows)?))
+    }
+
+    /// The size in samples, the finest that the adapter allows up to what the view asks for.
+    fn raster(&self, view: &View, width: u32, height: u32) -> Result<Raster, ViewerError> {
+        let limit = self.context.limits.max_texture_dimension_2d;
+        if !(1..=limit).contains(&width) || !(1..=limit).contains(&height) {
+            return Err(ViewerError::ImageSize {
+                width,
+                height,
+                limit,
+                adapter: self.context.adapter_name.clone(),
+            });
+        }
+        let fits = |s: &u32| {
+            let (w, h) = (u64::from(width * s), u64::from(height * s));
+            w.max(h) <= u64::from(limit) && w * h <= SAMPLE_LIMIT
+        };
+        let samples = (1..=view.samples).rev().find(fits).unwrap_or(1);
+        Ok(Raster { width, height, samples, scale: view.scale })
+    }
+}
+
+/// The drawing of one frame.
+struct Draw<'a> {
+    renderer: &'a Renderer,
+    scene: &'a SceneBuffers,
+    view: &'a View,
+    frame: Frame,
+    targets: &'a Targets,
+}
+
+impl Draw<'_> {
+    /// Triangles that go through the depth test; none when the view makes all meshes transparent.
+    fn n_opaque_vertices(&self) -> u32 {
+        if self.view.opacity < 1.0 { 0 } else { self.scene.vertices.n_opaque }
+    }
+
+    fn has_layers(&self) -> bool {
+        let Self { scene, .. } = self;
+        self.n_opaque_vertices() < scene.vertices.n
+            || scene.lines.n_opaque < scene.lines.n
+            || scene.points.n_opaque < scene.points.n
+    }
+
+    fn without_layers(&self) -> Result<Option<Layers>, ViewerError> {
+        let group = self.frame_group(&[Band { row: 0, rows: 0 }], 0)?;
+        let mut encoder = self.encoder();
+        self.opaque_pass(&mut encoder, &group);
+        self.reduce_pass(&mut encoder, &group);
+        self.submit(encoder)?;
+        Ok(None)
+    }
+
+    /// Draws until no layer is lost; returns the buffers that it took when they are new.
+    fn with_layers(&self) -> Result<Option<Layers>, ViewerError> {
+        let Renderer { context, pipelines, layers, .. } = self.renderer;
+        let mut new = layers.is_none().then(|| Layers::first(context, pipelines, self.targets));
+        loop {
+            let Some(current) = new.as_ref().or(layers.as_ref()) else { return Ok(None) };
+            self.draw_layers(current)?;
+            match current.larger(context, pipelines, self.targets)? {
+                Some(larger) => new = Some(larger),
+                None => return Ok(new),
+            }
+        }
+    }
+
+    fn draw_layers(&self, layers: &Layers) -> Result<(), ViewerError> {
+        let bands: Vec<Band> = layers.bands().collect();
+        let group = self.frame_group(&bands, layers.node_capacity())?;
+        let mut encoder = self.encoder();
+        self.opaque_pass(&mut encoder, &group);
+        encoder.clear_buffer(&layers.counts, 0, None);
+        for (i, &band) in bands.iter().enumerate() {
+            encoder.clear_buffer(&layers.heads, 0, None);
+            let offset = (i * FRAME_STRIDE) as u32;
+            self.layer_pass(&mut encoder, &group, layers, band, offset);
+            self.resolve_pass(&mut encoder, &group, layers, band, offset);
+        }
+        layers.read_back(&mut encoder);
+        self.reduce_pass(&mut encoder, &group);
+        self.submit(encoder)
+    }
+
+    fn encoder(&self) -> CommandEncoder {
+        self.renderer.context.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default())
+    }
+
+    fn submit(&self, encoder: CommandEncoder) -> Result<(), ViewerError> {
+        self.renderer.context.queue.submit([encoder.finish()]);
+        self.renderer.context.check()
+    }
+
+    /// The parameters of the frame, once for each band, and the parts of the scene.
+    fn frame_group(&self, bands: &[Band], node_capacity: u32) -> Result<wgpu::BindGroup, ViewerError> {
+        let Renderer { context, pipelines, .. } = self.renderer;
+        let mut bytes = vec![0; FRAME_STRIDE * bands.len()];
+        for (i, band) in bands.iter().enumerate() {
+            let frame = Frame { band_row: band.row, band: i as u32, node_capacity, ..self.frame };
+            bytes[i * FRAME_STRIDE..][..size_of::<Frame>()].copy_from_slice(bytemuck::bytes_of(&frame));
+        }
+        let frames = context.upload("frame", &bytes, BufferUsages::UNIFORM)?;
+        let frame = wgpu::BufferBinding {
+            buffer: &frames,
+            offset: 0,
+            size: wgpu::BufferSize::new(size_of::<Frame>() as u64),
+        };
+        Ok(context.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("frame"),
+            layout: &pipelines.frame_layout,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::Buffer(frame) },
+                wgpu::BindGroupEntry { binding: 1, resource: self.scene.parts.as_entire_binding() },
+            ],
+        }))
+    }
+
+    fn opaque_pass(&self, encoder: &mut CommandEncoder, group: &wgpu::BindGroup) {
+        let [r, g, b] = self.view.background.map(f64::from);
+        let depth_ops = Operations { load: LoadOp::Clear(1.0), store: StoreOp::Discard };
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("opaque"),
+            color_attachments: &[
+                attachment(&self.targets.color, LoadOp::Clear(wgpu::Color { r, g, b, a: 1.0 })),
+                attachment(&self.targets.opaque_depth, LoadOp::Clear(wgpu::Color::WHITE)),
+            ],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &self.targets.depth,
+                depth_ops: Some(depth_ops),
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        });
+        pass.set_bind_group(0, group, &[0]);
+        let Pipelines { mesh, lines, points, .. } = &self.renderer.pipelines;
+        let SceneBuffers { vertices, lines: segments, points: dots, .. } = self.scene;
+        draw_vertices(&mut pass, &mesh.opaque, vertices, 0..self.n_opaque_vertices());
+        draw_instances(&mut pass, &lines.opaque, segments, 0..segments.n_opaque);
+        draw_instances(&mut pass, &points.opaque, dots, 0..dots.n_opaque);
+    }
+
+    fn layer_pass(
+        &self,
+        encoder: &mut CommandEncoder,
+        group: &wgpu::BindGroup,
+        layers: &Layers,
+        band: Band,
+        offset: u32,
+    ) {
+        let mut pass = self.band_pass(encoder, "layers", band);
+        pass.set_bind_group(0, group, &[offset]);
+        pass.set_bind_group(1, &layers.group, &[]);
+        let Pipelines { mesh, lines, points, .. } = &self.renderer.pipelines;
+        let SceneBuffers { vertices, lines: segments, points: dots, .. } = self.scene;
+        draw_vertices(&mut pass, &mesh.layer, vertices, self.n_opaque_vertices()..vertices.n);
+        draw_instances(&mut pass, &lines.layer, segments, segments.n_opaque..segments.n);
+        draw_instances(&mut pass, &points.layer, dots, dots.n_opaque..dots.n);
+    }
+
+    fn resolve_pass(
+        &self,
+        encoder: &mut CommandEncoder,
+        group: &wgpu::BindGroup,
+        layers: &Layers,
+        band: Band,
+        offset: u32,
+    ) {
+        let mut pass = self.band_pass(encoder, "resolve", band);
+        pass.set_bind_group(0, group, &[offset]);
+        pass.set_bind_group(1, &layers.group, &[]);
+        pass.set_pipeline(&self.renderer.pipelines.resolve);
+        pass.draw(0..3, 0..1);
+    }
+
+    fn band_pass<'e>(&self, encoder: &'e mut CommandEncoder, label: &str, band: Band) -> RenderPass<'e> {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(label),
+            color_attachments: &[attachment(&self.targets.color, LoadOp::Load)],
+            ..Default::default()
+        });
+        pass.set_scissor_rect(0, band.row, self.targets.raster.size()[0], band.rows);
+        pass
+    }
+
+    fn reduce_pass(&self, encoder: &mut CommandEncoder, group: &wgpu::BindGroup) {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("reduce"),
+            color_attachments: &[attachment(&self.targets.picture_view, LoadOp::Clear(wgpu::Color::BLACK))],
+            ..Default::default()
+        });
+        pass.set_bind_group(0, group, &[0]);
+        pass.set_bind_group(1, &self.targets.samples, &[]);
+        pass.set_pipeline(&self.renderer.pipelines.reduce);
+        pass.draw(0..3, 0..1);
+    }
+}
+
+fn attachment(
+    view: &wgpu::TextureView,
+    load: LoadOp<wgpu::Color>,
+) -> Option<wgpu::RenderPassColorAttachment<'_>> {
+    let ops = Operations { load, store: StoreOp::Store };
+    Some(wgpu::RenderPassColorAttachment { view, depth_slice: None, resolve_target: None, ops })
+}
+
+fn draw_vertices(
+    pass: &mut RenderPass<'_>,
+    pipeline: &wgpu::RenderPipeline,
+    uploaded: &Uploaded,
+    range: std::ops::Range<u32>,
+) {
+    if !range.is_empty() {
+        pass.set_pipeline(pipeline);
+        pass.set_vertex_buffer(0, uploaded.buffer.slice(..));
+        pass.draw(range, 0..1);
+    }
+}
+
+fn draw_instances(
+    pass: &mut RenderPass<'_>,
+    pipeline: &wgpu::RenderPipeline,
+    uploaded: &Uploaded,
+    range: std::ops::Range<u32>,
+) {
+    if !range.is_empty() {
+        pass.set_pipeline(pipeline);
+        pass.set_vertex_buffer(0, uploaded.buffer.slice(..));
+        pass.draw(0..4, range);
+    }
+}

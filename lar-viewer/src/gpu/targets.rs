@@ -1,0 +1,62 @@
+//! The textures that a frame is drawn into.
+
+use super::context::Context;
+use super::frame::Raster;
+use super::pipelines::{COLOR, DEPTH, OPAQUE_DEPTH, Pipelines};
+use wgpu::{Texture, TextureUsages, TextureView};
+
+/// Textures of one size: three of samples and the finished picture.
+pub(crate) struct Targets {
+    pub(crate) raster: Raster,
+    pub(crate) color: TextureView,
+    pub(crate) opaque_depth: TextureView,
+    pub(crate) depth: TextureView,
+    pub(crate) picture: Texture,
+    pub(crate) picture_view: TextureView,
+    pub(crate) samples: wgpu::BindGroup,
+}
+
+impl Targets {
+    pub(crate) fn new(context: &Context, pipelines: &Pipelines, raster: Raster) -> Self {
+        let drawn = TextureUsages::RENDER_ATTACHMENT;
+        let size = raster.size();
+        let color = view(&texture(context, size, COLOR, drawn | TextureUsages::TEXTURE_BINDING));
+        let opaque_depth =
+            view(&texture(context, size, OPAQUE_DEPTH, drawn | TextureUsages::TEXTURE_BINDING));
+        let depth = view(&texture(context, size, DEPTH, drawn));
+        let usage = drawn | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
+        let picture = texture(context, [raster.width, raster.height], COLOR, usage);
+        let samples = context.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("samples"),
+            layout: &pipelines.samples_layout,
+            entries: &[wgpu::BindGroupEntry {
+                binding: 0,
+                resource: wgpu::BindingResource::TextureView(&color),
+            }],
+        });
+        let picture_view = view(&picture);
+        Self { raster, color, opaque_depth, depth, picture, picture_view, samples }
+    }
+}
+
+fn texture(
+    context: &Context,
+    [width, height]: [u32; 2],
+    format: wgpu::TextureFormat,
+    usage: TextureUsages,
+) -> Texture {
+    context.device.create_texture(&wgpu::TextureDescriptor {
+        label: None,
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage,
+        view_formats: &[],
+    })
+}
+
+fn view(texture: &Texture) -> TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
+}

@@ -1,0 +1,132 @@
+//! Pictures and their files.
+
+use crate::ViewerError;
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// A picture of 8-bit RGBA pixels, row by row from the top.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Image {
+    width: u32,
+    height: u32,
+    pixels: Vec<u8>,
+}
+
+impl Image {
+    /// `pixels` has 4 × width × height bytes.
+    pub(crate) fn new(width: u32, height: u32, pixels: Vec<u8>) -> Self {
+        debug_assert_eq!(pixels.len() as u64, 4 * u64::from(width) * u64::from(height));
+        Self { width, height, pixels }
+    }
+
+    /// Pixels in a row.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Rows.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// All bytes: red, green, blue, alpha of the first pixel of the top row, then the next.
+    #[must_use]
+    pub fn pixels(&self) -> &[u8] {
+        &self.pixels
+    }
+
+    /// Red, green, blue and alpha of the pixel in column `x` of row `y`; `None` outside the picture.
+    #[must_use]
+    pub fn pixel(&self, x: u32, y: u32) -> Option<[u8; 4]> {
+        let at = 4 * (y as usize * self.width as usize + x as usize);
+        let inside = x < self.width && y < self.height;
+        inside.then(|| std::array::from_fn(|k| self.pixels[at + k]))
+    }
+
+    /// The picture as a PNG file's bytes.
+    ///
+    /// # Errors
+    /// `Encode`.
+    pub fn to_png(&self) -> Result<Vec<u8>, ViewerError> {
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, self.width, self.height);
+        encoder.set_color(png::ColorType::Rgba);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(&self.pixels)?;
+        writer.finish()?;
+        Ok(bytes)
+    }
+
+    /// Writes a PNG file. An existing file is replaced only when the new one is complete.
+    ///
+    /// # Errors
+    /// `Encode`, or `Write` with the path.
+    pub fn write_png(&self, path: impl AsRef<Path>) -> Result<(), ViewerError> {
+        let path = path.as_ref();
+        let bytes = self.to_png()?;
+        replace(path, &bytes).map_err(|source| ViewerError::Write { path: path.to_owned(), source })
+    }
+}
+
+/// Writes a temporary file beside `path` and renames it.
+fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut name = path.file_name().ok_or(io::ErrorKind::InvalidInput)?.to_owned();
+    name.push(format!(".{}.tmp", std::process::id()));
+    let temporary: PathBuf = path.with_file_name(name);
+    let written = fs::File::create(&temporary)
+        .and_then(|mut file| file.write_all(bytes))
+        .and_then(|()| fs::rename(&temporary, path));
+    if written.is_err() {
+        // What went wrong is reported; a temporary file that cannot be removed either is not.
+        let _ = fs::remove_file(&temporary);
+    }
+    written
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn checker() -> Image {
+        let pixels = (0..6_u8).flat_map(|i| [i * 40, 255 - i * 40, i, 255]).collect();
+        Image::new(3, 2, pixels)
+    }
+
+    #[test]
+    fn png_round_trip() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("checker.png");
+        checker().write_png(&path).unwrap();
+        checker().write_png(&path).unwrap();
+        let file = io::BufReader::new(fs::File::open(&path).unwrap());
+        let mut reader = png::Decoder::new(file).read_info().unwrap();
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        let info = reader.next_frame(&mut pixels).unwrap();
+        assert_eq!((info.width, info.height), (3, 2));
+        assert_eq!(pixels, checker().pixels);
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1, "no temporary file is left");
+    }
+
+    #[test]
+    fn an_unwritable_path_is_named_and_leaves_nothing() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("missing").join("a.png");
+        let error = checker().write_png(&path).unwrap_err().to_string();
+        assert!(error.starts_with("cannot write ") && error.contains("a.png"), "{error}");
+        assert!(matches!(checker().write_png(dir.path()), Err(ViewerError::Write { .. })), "a directory");
+        assert!(matches!(checker().write_png("/"), Err(ViewerError::Write { .. })), "no file name");
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn pixels_are_found_by_column_and_row() {
+        assert_eq!(checker().pixel(2, 1), Some([200, 55, 5, 255]));
+        assert_eq!(checker().pixel(3, 0), None);
+        assert_eq!(checker().pixel(0, 2), None);
+    }
+}

@@ -1,0 +1,78 @@
+// Segments as quads of constant width on the screen with round ends. They are drawn a little nearer to the eye than
+// they are, by as much as their width, so that the faces they bound do not cover half of them.
+
+struct LineInstance {
+    @location(0) start: vec3<f32>,
+    @location(1) part: u32,
+    @location(2) end: vec3<f32>,
+    @location(3) width: f32,
+}
+
+struct LineFragment {
+    @builtin(position) position: vec4<f32>,
+    @location(0) place: vec2<f32>,                         // samples along the segment from its start, and across
+    @location(1) @interpolate(flat) extent: vec2<f32>,     // its length and half its width, in samples
+    @location(2) @interpolate(flat) color: vec4<f32>,
+}
+
+// The end moved along the segment to the near plane when it lies behind it.
+fn clipped(end: vec3<f32>, other: vec3<f32>) -> vec3<f32> {
+    let plane = -frame.near;
+    if end.z <= plane {
+        return end;
+    }
+    return mix(end, other, (plane - end.z) / (other.z - end.z));
+}
+
+@vertex
+fn line_vertex(@builtin(vertex_index) corner: u32, line: LineInstance) -> LineFragment {
+    var out: LineFragment;
+    let part = parts[line.part];
+    let start = view_position(line.start, part.centroid);
+    let end = view_position(line.end, part.centroid);
+    if is_hidden(part.flags) || min(start.z, end.z) > -frame.near {
+        out.position = NOWHERE;
+        return out;
+    }
+    let half_width = 0.5 * line.width * frame.samples_per_pixel;
+    let bias = 2.0 * half_width;
+    let a = screen_position(towards_eye(clipped(start, end), bias));
+    let b = screen_position(towards_eye(clipped(end, start), bias));
+    let half_view = 0.5 * frame.viewport;
+    let span = (b.xy - a.xy) * half_view;
+    let length = length(span);
+    let along = select(vec2<f32>(1.0, 0.0), span / max(length, 1e-6), length > 1e-6);
+    let across = vec2<f32>(-along.y, along.x);
+    let at_end = (corner & 1u) == 1u;
+    let reach = half_width + 1.0;
+    let out_along = select(-reach, reach, at_end);
+    let out_across = select(-reach, reach, (corner & 2u) == 2u);
+    let base = select(a, b, at_end);
+    let offset = (along * out_along + across * out_across) / half_view;
+    out.position = vec4<f32>(base.xy + offset, base.z, 1.0);
+    out.place = vec2<f32>(out_along + select(0.0, length, at_end), out_across);
+    out.extent = vec2<f32>(length, half_width);
+    out.color = part.color;
+    return out;
+}
+
+fn is_on_line(in: LineFragment) -> bool {
+    let beyond = max(max(-in.place.x, in.place.x - in.extent.x), 0.0);
+    return length(vec2<f32>(beyond, in.place.y)) <= in.extent.y;
+}
+
+@fragment
+fn line_opaque(in: LineFragment) -> Opaque {
+    if !is_on_line(in) {
+        discard;
+    }
+    return opaque(in.color, in.position);
+}
+
+@fragment
+fn line_layer(in: LineFragment) -> @location(0) vec4<f32> {
+    if is_on_line(in) {
+        store_layer(in.color, in.position);
+    }
+    return vec4<f32>(0.0);
+}

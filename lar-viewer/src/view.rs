@@ -1,0 +1,111 @@
+//! What is chosen anew for each picture: camera, explosion, opacity, background.
+
+use crate::{Camera, Rgb, SLATE, Scene, ViewerError};
+
+/// Samples per pixel and axis when nothing else is asked for.
+const DEFAULT_SAMPLES: u32 = 3;
+
+/// How a scene is shown. Changing a view never rebuilds what the scene has on the graphics card.
+///
+/// ```
+/// use lar_viewer::{Scene, View};
+/// let scene = Scene::new();
+/// let view = View { background: lar_viewer::WHITE, ..View::fitted(&scene, [1.5; 3], 4.0 / 3.0) };
+/// assert!(view.validate().is_ok());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// Where the scene is seen from.
+    pub camera: Camera,
+    /// Factors x, y, z of the explosion; 1 leaves the scene in place.
+    pub explode: [f32; 3],
+    /// Multiplies the opacity of all meshes; 1 leaves them as they are.
+    pub opacity: f32,
+    /// Whether cell edges are drawn.
+    pub edges: bool,
+    /// Colour behind everything.
+    pub background: Rgb,
+    /// Pixels of the picture for one pixel of line width or point size: 2 for a picture to be shown at half size,
+    /// the scale factor of the screen in a window.
+    pub scale: f32,
+    /// Samples per pixel along each axis, 1 to 8, averaged for smooth outlines; reduced where the picture would
+    /// outgrow the adapter.
+    pub samples: u32,
+}
+
+impl Default for View {
+    /// The default camera, nothing exploded, slate background.
+    fn default() -> Self {
+        Self {
+            camera: Camera::default(),
+            explode: [1.0; 3],
+            opacity: 1.0,
+            edges: true,
+            background: SLATE,
+            scale: 1.0,
+            samples: DEFAULT_SAMPLES,
+        }
+    }
+}
+
+impl View {
+    /// The default three-quarter view of the exploded scene, filling a picture of this aspect (width / height).
+    #[must_use]
+    pub fn fitted(scene: &Scene, explode: [f32; 3], aspect: f64) -> Self {
+        Self { explode, ..Self::default() }.fit(scene, aspect)
+    }
+
+    /// The same view with the scene, as exploded, in the middle and filling the picture. An empty scene leaves the
+    /// view unchanged.
+    #[must_use]
+    pub fn fit(self, scene: &Scene, aspect: f64) -> Self {
+        match scene.bounds(self.explode) {
+            Some(bounds) => Self { camera: self.camera.fit(&bounds, aspect), ..self },
+            None => self,
+        }
+    }
+
+    /// Checks that all parameters are finite and in range.
+    ///
+    /// # Errors
+    /// `InvalidView` with the parameter and its value.
+    pub fn validate(&self) -> Result<(), ViewerError> {
+        self.camera.validate()?;
+        let within = |parameter, value: f64, low: f64, high: f64, expected| {
+            let ok = low <= value && value <= high;
+            if ok { Ok(()) } else { Err(ViewerError::InvalidView { parameter, value, expected }) }
+        };
+        for s in self.explode {
+            within("an explode factor", f64::from(s), -1e6, 1e6, "in ±1e6")?;
+        }
+        within("the opacity", f64::from(self.opacity), 0.0, 1.0, "in 0..=1")?;
+        within("the scale of lines", f64::from(self.scale), 0.01, 100.0, "in 0.01..=100")?;
+        within("the number of samples", f64::from(self.samples), 1.0, 8.0, "in 1..=8")?;
+        for c in self.background {
+            within("a background channel", f64::from(c), 0.0, 1.0, "in 0..=1")?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check_refused(view: View, named: &str) {
+        let error = view.validate().unwrap_err().to_string();
+        assert!(error.contains(named), "{error}");
+    }
+
+    #[test]
+    fn senseless_views_are_refused() {
+        let good = View::default();
+        good.validate().unwrap();
+        check_refused(View { explode: [1.0, f32::NAN, 1.0], ..good }, "explode factor is NaN");
+        check_refused(View { opacity: 1.5, ..good }, "opacity is 1.5");
+        check_refused(View { samples: 0, ..good }, "samples is 0");
+        check_refused(View { scale: 0.0, ..good }, "scale of lines is 0");
+        check_refused(View { background: [0.0, 2.0, 0.0], ..good }, "background channel is 2");
+    }
+}
