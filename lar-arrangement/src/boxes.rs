@@ -1,0 +1,170 @@
+//! Broad phase: a tree of boxes over points in Z-order, eight children a node, built in bulk.
+
+use crate::parallel;
+
+/// An axis-aligned closed box.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Aabb {
+    pub lo: [f64; 3],
+    pub hi: [f64; 3],
+}
+
+impl Aabb {
+    pub(crate) const EMPTY: Self = Self { lo: [f64::INFINITY; 3], hi: [f64::NEG_INFINITY; 3] };
+
+    pub(crate) fn around(points: impl IntoIterator<Item = [f64; 3]>) -> Self {
+        points.into_iter().fold(Self::EMPTY, |b, p| b.joined(&Self { lo: p, hi: p }))
+    }
+
+    pub(crate) fn joined(&self, other: &Self) -> Self {
+        Self {
+            lo: std::array::from_fn(|k| self.lo[k].min(other.lo[k])),
+            hi: std::array::from_fn(|k| self.hi[k].max(other.hi[k])),
+        }
+    }
+
+    pub(crate) fn meets(&self, other: &Self) -> bool {
+        self.lo[0] <= other.hi[0]
+            && other.lo[0] <= self.hi[0]
+            && self.lo[1] <= other.hi[1]
+            && other.lo[1] <= self.hi[1]
+            && self.lo[2] <= other.hi[2]
+            && other.lo[2] <= self.hi[2]
+    }
+}
+
+const WIDTH: usize = 8;
+
+/// Boxes in a tree.
+#[derive(Debug)]
+pub(crate) struct BoxTree {
+    /// Item at each leaf.
+    items: Vec<u32>,
+    /// Level 0 holds the leaves' boxes; a box of level k + 1 encloses eight of level k.
+    levels: Vec<Vec<Aabb>>,
+}
+
+impl BoxTree {
+    /// O(n log n).
+    pub(crate) fn new(boxes: &[Aabb]) -> Self {
+        let all = boxes.iter().fold(Aabb::EMPTY, |a, b| a.joined(b));
+        let scale: [f64; 3] =
+            std::array::from_fn(|k| if all.hi[k] > all.lo[k] { 1_048_575.0 / (all.hi[k] - all.lo[k]) } else { 0.0 });
+        let mut keyed: Vec<(u64, u32)> = boxes
+            .iter()
+            .zip(0..)
+            .map(|(b, i)| {
+                let cell: [u64; 3] = std::array::from_fn(|k| {
+                    (((b.lo[k] - all.lo[k]) * 0.5 + (b.hi[k] - all.lo[k]) * 0.5) * scale[k]) as u64
+                });
+                (spread(cell[0]) | spread(cell[1]) << 1 | spread(cell[2]) << 2, i)
+            })
+            .collect();
+        keyed.sort_unstable();
+        let items: Vec<u32> = keyed.into_iter().map(|(_, i)| i).collect();
+        let mut levels = vec![items.iter().map(|&i| boxes[i as usize]).collect::<Vec<_>>()];
+        while levels.last().is_some_and(|level| level.len() > 1) {
+            let below = levels.last().expect("just seen");
+            levels.push(below.chunks(WIDTH).map(|c| c.iter().fold(Aabb::EMPTY, |a, b| a.joined(b))).collect());
+        }
+        Self { items, levels }
+    }
+
+    /// Calls `visit` with each item whose box meets `target`.
+    pub(crate) fn query(&self, target: &Aabb, mut visit: impl FnMut(u32)) {
+        self.leaves(target, 0, &mut |leaf| visit(self.items[leaf]));
+    }
+
+    /// Calls `visit` with each leaf at or after `first` whose box meets `target`.
+    fn leaves(&self, target: &Aabb, first: usize, visit: &mut impl FnMut(usize)) {
+        let top = self.levels.len() - 1;
+        let mut stack: Vec<(usize, usize)> = (0..self.levels[top].len()).rev().map(|i| (top, i)).collect();
+        while let Some((level, i)) = stack.pop() {
+            if !self.levels[level][i].meets(target) {
+                continue;
+            }
+            if level == 0 {
+                visit(i);
+                continue;
+            }
+            let below = self.levels[level - 1].len();
+            let (from, to) = (i * WIDTH, ((i + 1) * WIDTH).min(below));
+            // A subtree whose last leaf comes before `first` is of no use.
+            let leaves_each = WIDTH.pow(level as u32 - 1);
+            stack.extend((from..to).rev().filter(|c| (c + 1) * leaves_each > first).map(|c| (level - 1, c)));
+        }
+    }
+
+    /// All pairs of items whose boxes meet, each once, the smaller first. O(n log n + pairs).
+    pub(crate) fn pairs(&self) -> Vec<[u32; 2]> {
+        if self.items.is_empty() {
+            return Vec::new();
+        }
+        let leaves = &self.levels[0];
+        let (n_chunks, range) = parallel::chunks(leaves.len().div_ceil(WIDTH), 64);
+        parallel::map(n_chunks, |chunk| {
+            let mut found = Vec::new();
+            for block in range(chunk) {
+                let (from, to) = (block * WIDTH, ((block + 1) * WIDTH).min(leaves.len()));
+                let hull = leaves[from..to].iter().fold(Aabb::EMPTY, |a, b| a.joined(b));
+                self.leaves(&hull, from, &mut |other| {
+                    for this in from..to.min(other) {
+                        if leaves[this].meets(&leaves[other]) {
+                            let (i, j) = (self.items[this], self.items[other]);
+                            found.push([i.min(j), i.max(j)]);
+                        }
+                    }
+                });
+            }
+            found
+        })
+        .concat()
+    }
+}
+
+/// The low 21 bits, two zeros after each.
+fn spread(x: u64) -> u64 {
+    let x = (x | x << 32) & 0x001f_0000_0000_ffff;
+    let x = (x | x << 16) & 0x001f_0000_ff00_00ff;
+    let x = (x | x << 8) & 0x100f_00f0_0f00_f00f;
+    let x = (x | x << 4) & 0x10c3_0c30_c30c_30c3;
+    (x | x << 2) & 0x1249_2492_4924_9249
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn pairs_and_queries_agree_with_brute_force(
+            corners in prop::collection::vec((prop::array::uniform3(0i32..40), prop::array::uniform3(0i32..9)), 0..300)
+        ) {
+            let boxes: Vec<Aabb> = corners.iter().map(|(lo, size)| Aabb {
+                lo: lo.map(f64::from),
+                hi: std::array::from_fn(|k| f64::from(lo[k] + size[k])),
+            }).collect();
+            let mut expected = Vec::new();
+            for j in 0..boxes.len() as u32 {
+                for i in 0..j {
+                    if boxes[i as usize].meets(&boxes[j as usize]) {
+                        expected.push([i, j]);
+                    }
+                }
+            }
+            expected.sort_unstable();
+            let tree = BoxTree::new(&boxes);
+            let mut found = tree.pairs();
+            found.sort_unstable();
+            prop_assert_eq!(found, expected);
+            if let Some(target) = boxes.first() {
+                let mut found = Vec::new();
+                tree.query(target, |i| found.push(i));
+                found.sort_unstable();
+                let expected: Vec<u32> = (0..boxes.len() as u32).filter(|&i| boxes[i as usize].meets(target)).collect();
+                prop_assert_eq!(found, expected);
+            }
+        }
+    }
+}

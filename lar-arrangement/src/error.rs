@@ -1,0 +1,39 @@
+//! What an arrangement or a Boolean can refuse, and why.
+
+use lar_core::{FaceId, VertexId};
+
+/// Why an operation was refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ArrangementError {
+    /// A surface that does not live in 3-space.
+    #[error("{solid}: points of {dim} coordinates, an arrangement in space needs 3")]
+    Dimension {
+        /// Name of the surface.
+        solid: String,
+        /// Its number of coordinates.
+        dim: usize,
+    },
+    /// A coordinate that is NaN or infinite.
+    #[error("{solid}: vertex {vertex} has the coordinate {value}")]
+    NotFinite {
+        /// Name of the surface.
+        solid: String,
+        /// The vertex.
+        vertex: VertexId,
+        /// The coordinate.
+        value: f64,
+    },
+    /// A face that names a vertex that does not exist.
+    #[error("{solid}: face {face} names vertex {vertex}, but there are {n_vertices} vertices")]
+    NoSuchVertex {
+        /// Name of the surface.
+        solid: String,
+        /// The face.
+        face: FaceId,
+        /// The vertex that it names.
+        vertex: VertexId,
+        /// How many there are.
+        n_vertices: usize,
+    },
+}

@@ -1,0 +1,119 @@
+//! Stage 1a: the integer grid that input coordinates are snapped to, once.
+//!
+//! The grid's step is a power of two chosen so that every |coordinate| / step ≤ 2^40. Its origin is 0 unless the
+//! model lies far from it, so that integers, dyadic fractions and 32-bit floats near the origin's scale are kept
+//! exactly; everything else moves by at most half a step.
+
+/// Coordinates on the grid stay within ±2^BITS.
+pub(crate) const BITS: i32 = 40;
+
+/// A power-of-two grid fitted to a bounding box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Grid {
+    /// Exponent of the step.
+    exponent: i32,
+    /// A multiple of the step for each axis.
+    origin: [f64; 3],
+}
+
+/// A model is recentred on an axis when the far end of its box is more than this many extents from 0: until then
+/// the grid loses at most three of its forty bits to the distance.
+const FAR: f64 = 8.0;
+
+impl Grid {
+    /// The finest grid that holds the box.
+    pub(crate) fn fitted(lo: [f64; 3], hi: [f64; 3]) -> Self {
+        let extent = (0..3).map(|k| hi[k] / 2.0 - lo[k] / 2.0).fold(0.0, f64::max);
+        let mut origin = [0.0; 3];
+        for k in 0..3 {
+            if lo[k].abs().max(hi[k].abs()) / FAR > extent {
+                origin[k] = lo[k] / 2.0 + hi[k] / 2.0;
+            }
+        }
+        let reach = |o: [f64; 3]| {
+            (0..3).map(|k| (hi[k] - o[k]).abs().max((lo[k] - o[k]).abs())).fold(0.0, f64::max)
+        };
+        // Moving the origin onto the grid may need one more bit: the exponent is taken with room for it.
+        let exponent = exponent_above(reach(origin)) - BITS;
+        let mut grid = Self { exponent, origin: [0.0; 3] };
+        for (at, o) in grid.origin.iter_mut().zip(origin) {
+            *at = scaled(scaled(o, -exponent).round(), exponent);
+        }
+        grid
+    }
+
+    /// Distance of neighbouring grid points.
+    pub(crate) fn step(&self) -> f64 {
+        scaled(1.0, self.exponent)
+    }
+
+    /// The nearest grid point.
+    pub(crate) fn snap(&self, p: [f64; 3]) -> [i64; 3] {
+        std::array::from_fn(|k| scaled(p[k] - self.origin[k], -self.exponent).round() as i64)
+    }
+
+    /// The origin in steps; all zero for most models.
+    pub(crate) fn offset(&self) -> [i128; 3] {
+        self.origin.map(|o| scaled(o, -self.exponent) as i128)
+    }
+
+    /// A coordinate in steps from 0 as a length. Exact unless the result is subnormal.
+    pub(crate) fn length(&self, steps: f64) -> f64 {
+        scaled(steps, self.exponent)
+    }
+}
+
+/// The smallest e with |x| < 2^e − a grid step's worth, at least −1000 so that steps stay normal numbers.
+fn exponent_above(x: f64) -> i32 {
+    let bits = x.to_bits();
+    let e = (bits >> 52 & 0x7ff) as i32 - 1022;
+    // A fraction of all ones would round up to 2^e.
+    let full = bits & 0x000f_ffff_ffff_ffff > 0x000f_ffff_ffff_ffff - (1 << 14);
+    (e + i32::from(full)).max(-960)
+}
+
+/// x · 2^e in two steps, so that neither factor overflows.
+fn scaled(x: f64, e: i32) -> f64 {
+    let half = e / 2;
+    x * 2f64.powi(half) * 2f64.powi(e - half)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(lo: [f64; 3], hi: [f64; 3]) -> Grid {
+        let grid = Grid::fitted(lo, hi);
+        for p in [lo, hi] {
+            let snapped = grid.snap(p);
+            for k in 0..3 {
+                assert!(snapped[k].abs() <= 1 << BITS, "{lo:?} {hi:?}: {snapped:?} leaves the grid");
+                let back = grid.length((i128::from(snapped[k]) + grid.offset()[k]) as f64);
+                assert!((back - p[k]).abs() <= grid.step() / 2.0, "{} comes back as {back}", p[k]);
+            }
+        }
+        grid
+    }
+
+    #[test]
+    fn grids_hold_their_boxes() {
+        check([0.0; 3], [1.0; 3]);
+        check([-0.3, 0.1, 0.7], [1.3, 1.9, 1.0]);
+        check([1e8, -1e8, 0.0], [1e8 + 1.0, -1e8 + 2.0, 1.0]);
+        check([1e300; 3], [1.1e300; 3]);
+        check([-1e308; 3], [1.7e308; 3]);
+        check([1e-300; 3], [2e-300; 3]);
+        check([0.0; 3], [0.0; 3]);
+        check([5.0; 3], [5.0; 3]);
+        check([f64::MIN_POSITIVE; 3], [f64::MIN_POSITIVE * 3.0; 3]);
+    }
+
+    #[test]
+    fn dyadic_coordinates_are_kept_exactly() {
+        let grid = check([-3.0; 3], [5.0; 3]);
+        let p = [0.25, -1.0 / 1024.0, 4.625];
+        let back = grid.snap(p).map(|x| grid.length(x as f64));
+        assert_eq!(back, p);
+    }
+}

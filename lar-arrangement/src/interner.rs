@@ -1,0 +1,64 @@
+//! Vertices by definition: different definitions of one point become one vertex, by exact equality.
+
+use crate::kernel::{Geometry, Vertex};
+use rustc_hash::FxHashMap;
+
+/// All vertices found so far.
+#[derive(Debug, Default)]
+pub(crate) struct Interner {
+    pub vertices: Vec<Vertex>,
+    /// First vertex with a position; the position is correctly rounded, so equal points have equal positions.
+    first_at: FxHashMap<[u64; 3], u32>,
+    /// Next vertex with the same position, or the vertex itself.
+    next_at: Vec<u32>,
+}
+
+impl Interner {
+    /// The points of the input, in their order.
+    pub(crate) fn new(geometry: &Geometry) -> Self {
+        let mut out = Self::default();
+        for p in 0..geometry.points.len() as u32 {
+            out.push(geometry.grid_vertex(p));
+        }
+        out
+    }
+
+    /// Adds a vertex that is known to differ from all others.
+    pub(crate) fn push(&mut self, vertex: Vertex) -> u32 {
+        let id = self.vertices.len() as u32;
+        let first = *self.first_at.entry(key(&vertex)).or_insert(id);
+        if first == id {
+            self.next_at.push(id);
+        } else {
+            // Inserted right after the first of its chain.
+            let second = self.next_at[first as usize];
+            self.next_at.push(if second == first { id } else { second });
+            self.next_at[first as usize] = id;
+        }
+        self.vertices.push(vertex);
+        id
+    }
+
+    /// The number of the vertex, known or new.
+    pub(crate) fn intern(&mut self, vertex: Vertex, geometry: &Geometry) -> u32 {
+        if let Some(&first) = self.first_at.get(&key(&vertex)) {
+            let mut at = first;
+            loop {
+                if geometry.coincide(&self.vertices[at as usize], &vertex) {
+                    return at;
+                }
+                let next = self.next_at[at as usize];
+                if next == at {
+                    break;
+                }
+                at = next;
+            }
+        }
+        self.push(vertex)
+    }
+}
+
+/// The position's bits; adding zero makes −0 and 0 one.
+fn key(v: &Vertex) -> [u64; 3] {
+    v.at.map(|x| (x + 0.0).to_bits())
+}

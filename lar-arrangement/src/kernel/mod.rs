@@ -1,0 +1,79 @@
+//! The exact kernel: fixed-width integers, planes, homogeneous points, filtered predicates.
+//!
+//! Every predicate is first tried in `f64` with a bound on its error; what the bound cannot decide goes at once to
+//! fixed-width integers. Nothing here has an epsilon: constants are error bounds, derived where they stand.
+//!
+//! Bit budget, for grid coordinates |x| ≤ 2^40 (b = 40):
+//!
+//! | quantity | bits |
+//! |---|---|
+//! | difference of coordinates | 41 |
+//! | component of a facet's normal | 83 |
+//! | offset of a facet's plane, side of a grid point | 126 |
+//! | line ∩ plane: coordinates, denominator | 168, 127 |
+//! | direction of the line of two facet planes | 168 |
+//! | three planes: coordinates, denominator | 296, 253 |
+//! | side of a three-plane point against a plane | 381 |
+//! | order of two three-plane points along an axis | 550 |
+//! | orientation of three three-plane points in a projection | 846 |
+//! | the same with the midpoint of two of them | 1100 |
+
+mod double;
+mod int;
+mod point;
+mod predicates;
+
+pub use int::Int;
+pub(crate) use point::{HPoint, Plane};
+pub(crate) use predicates::{Along, Direction, Geometry, Midpoint, Support, Vertex, VertexDef};
+pub use predicates::Counters;
+
+/// The sign of an exact quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(i8)]
+pub enum Sign {
+    /// Below zero.
+    Negative = -1,
+    /// Exactly zero.
+    Zero = 0,
+    /// Above zero.
+    Positive = 1,
+}
+
+impl Sign {
+    /// The sign of the product.
+    #[must_use]
+    pub fn times(self, other: Sign) -> Sign {
+        Sign::from(self as i8 * other as i8)
+    }
+}
+
+impl From<i8> for Sign {
+    fn from(x: i8) -> Self {
+        match x.cmp(&0) {
+            std::cmp::Ordering::Less => Sign::Negative,
+            std::cmp::Ordering::Equal => Sign::Zero,
+            std::cmp::Ordering::Greater => Sign::Positive,
+        }
+    }
+}
+
+impl From<i128> for Sign {
+    fn from(x: i128) -> Self {
+        Sign::from(x.signum() as i8)
+    }
+}
+
+impl From<std::cmp::Ordering> for Sign {
+    fn from(order: std::cmp::Ordering) -> Self {
+        Sign::from(order as i8)
+    }
+}
+
+impl std::ops::Neg for Sign {
+    type Output = Sign;
+
+    fn neg(self) -> Sign {
+        Sign::from(-(self as i8))
+    }
+}

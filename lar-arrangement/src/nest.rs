@@ -1,0 +1,194 @@
+//! Stage 5a: which shells bound the same 3-cell.
+//!
+//! A connected set of faces (through edges) has one shell that looks outwards; all its others bound cells of
+//! their own. Components do not cross, so each lies in one cell of the rest. Both questions are answered by one
+//! ray: from the middle of an edge of the component, towards −x, over all faces hit in order. The shell on the
+//! component's side after its last hit is the one that looks outwards; while the ray runs on that side, the first
+//! face of another component that it meets faces the cell in which the component lies.
+//!
+//! The middle of an edge never touches another component. Degenerate hits are excluded by moving the start by
+//! (ε³, ε, ε²) for an infinitesimal ε, consistently in every predicate (simulation of simplicity).
+
+use crate::boxes::{Aabb, BoxTree};
+use crate::kernel::{Geometry, Int, Midpoint, Sign, Support};
+use crate::skeleton::Skeleton;
+use crate::union_find::UnionFind;
+use crate::wrap;
+use lar_core::Cells;
+use std::cmp::Ordering;
+
+/// Everything the rays need.
+pub(crate) struct Nesting<'a> {
+    pub skeleton: &'a Skeleton,
+    pub geometry: &'a Geometry,
+    pub rings: &'a Cells,
+    pub shell_of_side: &'a [u32],
+    pub n_shells: u32,
+    pub component_of_face: &'a [u32],
+    pub n_components: u32,
+}
+
+/// A face hit by a ray: the distance is side / normal, both exact.
+struct Hit {
+    face: u32,
+    side: Int<12>,
+    normal: [i128; 3],
+}
+
+impl Nesting<'_> {
+    /// Cell of each shell; cell 0 is the exterior. Also the number of cells.
+    pub(crate) fn cells(&self) -> (Vec<u32>, u32) {
+        let n = self.n_shells as usize;
+        // Element n stands for the exterior.
+        let mut sets = UnionFind::new(n + 1);
+        let tree = BoxTree::new(&self.boxes());
+        for (edge, component) in self.first_edges() {
+            let (outer, around) = self.shoot(edge, component, &tree);
+            sets.union(outer, around.unwrap_or(n as u32));
+        }
+        let (labels, n_cells) = sets.labels();
+        let exterior = labels[n];
+        let cell = |label: u32| match label.cmp(&exterior) {
+            Ordering::Less => label + 1,
+            Ordering::Equal => 0,
+            Ordering::Greater => label,
+        };
+        (labels[..n].iter().map(|&l| cell(l)).collect(), n_cells)
+    }
+
+    fn boxes(&self) -> Vec<Aabb> {
+        (0..self.skeleton.n_faces() as u32)
+            .map(|f| {
+                let tails = self.skeleton.half_edges(f).map(|h| self.skeleton.ends(h)[0]);
+                Aabb::around(tails.map(|v| self.skeleton.vertices[v as usize].at))
+            })
+            .collect()
+    }
+
+    /// One edge of each component.
+    fn first_edges(&self) -> Vec<(u32, u32)> {
+        let mut seen = vec![false; self.n_components as usize];
+        let mut found = Vec::new();
+        for (face, &component) in (0..).zip(self.component_of_face) {
+            if !std::mem::replace(&mut seen[component as usize], true) {
+                let h = self.skeleton.half_edges(face).next().expect("faces have edges");
+                found.push((h / 2, component));
+            }
+        }
+        found
+    }
+
+    /// The shell with which a component looks outwards, and a shell of another component that bounds the cell it
+    /// lies in, `None` for the exterior.
+    fn shoot(&self, edge: u32, component: u32, tree: &BoxTree) -> (u32, Option<u32>) {
+        let [a, b] = self.skeleton.edges[edge as usize].map(|v| &self.skeleton.vertices[v as usize]);
+        let start = self.geometry.midpoint(a, b);
+        let mut hits = Vec::new();
+        // The rounded midpoint may be off by a fraction of a grid step.
+        let beam = Aabb {
+            lo: [f64::NEG_INFINITY, start.at[1] - 1.0, start.at[2] - 1.0],
+            hi: start.at.map(|x| x + 1.0),
+        };
+        tree.query(&beam, |face| hits.extend(self.hit(face, &start)));
+        hits.sort_by(nearer);
+        let own = |hit: &Hit| self.component_of_face[hit.face as usize] == component;
+        let beyond = |hit: &Hit| self.shell(hit, true);
+        let first = self.shell_of_side[self.sector(edge) as usize];
+        let outer = hits.iter().rfind(|h| own(h)).map_or(first, beyond);
+        let mut here = first;
+        for hit in &hits {
+            if own(hit) {
+                here = beyond(hit);
+            } else if here == outer {
+                return (outer, Some(self.shell(hit, false)));
+            }
+        }
+        (outer, None)
+    }
+
+    /// The shell on the side of a hit face that the ray leaves to, or comes from.
+    fn shell(&self, hit: &Hit, beyond: bool) -> u32 {
+        let front_is_beyond = hit.normal[0] < 0;
+        self.shell_of_side[(2 * hit.face + u32::from(front_is_beyond != beyond)) as usize]
+    }
+
+    /// The side that bounds the sector around an edge into which its middle is moved: direction (ε², 1, ε).
+    fn sector(&self, edge: u32) -> u32 {
+        let ring = &self.rings[edge as usize];
+        // Whether the direction lies within half a turn counter-clockwise of the face.
+        let ahead = |entry: u32| {
+            let facet = self.skeleton.facet(entry / 2);
+            let sign = [1, 2, 0]
+                .map(|axis| self.geometry.normal_sign(facet, axis))
+                .into_iter()
+                .find(|&s| s != Sign::Zero)
+                .expect("normals are not zero");
+            (sign == Sign::Positive) == entry.is_multiple_of(2)
+        };
+        let contains = |i: usize| {
+            let (a, b) = (ring[i], ring[(i + 1) % ring.len()]);
+            match wrap::turn(a, b, edge, self.skeleton, self.geometry) {
+                Sign::Positive => ahead(a) && !ahead(b),
+                Sign::Zero => ahead(a),
+                Sign::Negative => ahead(a) || !ahead(b),
+            }
+        };
+        match ring {
+            [only] => *only,
+            _ => ring[(0..ring.len()).find(|&i| contains(i)).expect("the sectors cover the full turn")],
+        }
+    }
+
+    /// Whether the ray from `start` towards −x meets a face.
+    fn hit(&self, face: u32, start: &Midpoint) -> Option<Hit> {
+        let facet = self.skeleton.facet(face);
+        if self.geometry.normal_sign(facet, 0) == Sign::Zero || !self.projection_contains(face, start) {
+            return None;
+        }
+        let plane = self.geometry.plane(Support::Facet(facet));
+        let side: Int<12> = plane.scaled_side(&start.exact).resize();
+        let moved = match side.sign() {
+            Sign::Zero => [1, 2, 0]
+                .map(|k| Sign::from(plane.n[k]))
+                .into_iter()
+                .find(|&s| s != Sign::Zero)
+                .expect("normals are not zero"),
+            sign => sign,
+        };
+        (moved == Sign::from(plane.n[0])).then_some(Hit { face, side, normal: plane.n })
+    }
+
+    /// Whether the start, projected along x, lies in the projected face: crossings of the ray towards +y.
+    fn projection_contains(&self, face: u32, start: &Midpoint) -> bool {
+        let mut inside = false;
+        for h in self.skeleton.half_edges(face) {
+            let [p, q] = self.skeleton.ends(h).map(|v| &self.skeleton.vertices[v as usize]);
+            let above = [p, q].map(|v| self.geometry.cmp_with_midpoint(v, start, 2).is_gt());
+            if above[0] != above[1] {
+                let (low, high) = if above[0] { (q, p) } else { (p, q) };
+                inside ^= self.geometry.orientation(low, high, start, 1, 2) == Sign::Positive;
+            }
+        }
+        inside
+    }
+}
+
+/// Order of two hits by distance: by side / normal[0], then by what the moved start adds to it.
+fn nearer(a: &Hit, b: &Hit) -> Ordering {
+    let flip = Sign::from(a.normal[0]).times(Sign::from(b.normal[0])) == Sign::Negative;
+    let scaled = |x: &Int<12>, n: i128| *x * Int::from(n);
+    let oriented = |order: Ordering| if flip { order.reverse() } else { order };
+    oriented(scaled(&a.side, b.normal[0]).cmp(&scaled(&b.side, a.normal[0])))
+        .then_with(|| {
+            [1, 2]
+                .map(|k| {
+                    let of = |x: i128, n: i128| Int::<12>::from(x) * Int::from(n);
+                    oriented(of(a.normal[k], b.normal[0]).cmp(&of(b.normal[k], a.normal[0])))
+                })
+                .into_iter()
+                .find(|o| o.is_ne())
+                .unwrap_or(Ordering::Equal)
+        })
+        .then_with(|| a.face.cmp(&b.face))
+}
+

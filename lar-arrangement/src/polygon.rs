@@ -1,0 +1,238 @@
+//! Stage 1b: one input polygon on the grid → facets that are exactly planar.
+//!
+//! A triangle is a facet. A larger polygon is kept whole when its corners are exactly coplanar on the grid and its
+//! loops are simple; otherwise it is triangulated with diagonals inside. Everything here is exact: coordinates
+//! are integers, orientation is computed in 128 bits.
+
+use crate::kernel::{Plane, Sign};
+use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
+
+/// Polygons with more corners are triangulated even when planar, so that testing a pair of facets has bounded cost.
+const MAX_CORNERS: usize = 64;
+
+/// What becomes of a polygon.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) enum Shape {
+    /// Exactly planar: kept whole. Three corners that span its plane, counter-clockwise about the normal.
+    Planar { base: [u32; 3] },
+    /// Cut into triangles, oriented like the polygon.
+    Triangles(Vec<[u32; 3]>),
+    /// All corners on one line: it has no inside.
+    Degenerate,
+}
+
+/// A polygon on the grid: loops of grid points, the outer one first.
+pub(crate) struct Polygon<'a> {
+    pub points: &'a [[i64; 3]],
+    pub loops: &'a [&'a [u32]],
+}
+
+impl Polygon<'_> {
+    fn corners(&self) -> impl Iterator<Item = u32> + Clone + '_ {
+        self.loops.iter().flat_map(|l| l.iter().copied())
+    }
+
+    fn edges(&self) -> impl Iterator<Item = [u32; 2]> + Clone + '_ {
+        self.loops.iter().flat_map(|l| (0..l.len()).map(move |i| [l[i], l[(i + 1) % l.len()]]))
+    }
+
+    fn at(&self, p: u32) -> [i64; 3] {
+        self.points[p as usize]
+    }
+
+    /// Decides the shape.
+    pub(crate) fn shape(&self) -> Shape {
+        if let [[a, b, c]] = self.loops {
+            let plane = Plane::through(self.at(*a), self.at(*b), self.at(*c));
+            return if plane.n == [0; 3] { Shape::Degenerate } else { Shape::Planar { base: [*a, *b, *c] } };
+        }
+        let Some(base) = self.spanning_corners() else {
+            return Shape::Degenerate;
+        };
+        let [a, b, c] = base;
+        let plane = Plane::through(self.at(a), self.at(b), self.at(c));
+        let axis = dominant_axis(plane.n);
+        let area = self.projected_area(axis);
+        let planar = self.corners().all(|p| plane.side(self.at(p)) == 0);
+        if planar && area != 0 && self.corners().count() <= MAX_CORNERS && self.is_simple(axis) {
+            let agrees = (area > 0) == (plane.n[axis] > 0);
+            return Shape::Planar { base: if agrees { base } else { [a, c, b] } };
+        }
+        Shape::Triangles(self.triangles(axis, area >= 0))
+    }
+
+    /// How far, in grid steps, the corners lie from the plane of the three that span it.
+    pub(crate) fn deviation(&self) -> f64 {
+        let Some([a, b, c]) = self.spanning_corners() else { return 0.0 };
+        let plane = Plane::through(self.at(a), self.at(b), self.at(c));
+        let length = plane.n.map(|x| (x as f64).powi(2)).iter().sum::<f64>().sqrt();
+        self.corners().map(|p| (plane.side(self.at(p)) as f64 / length).abs()).fold(0.0, f64::max)
+    }
+
+    /// Three corners far from one line: the first, the farthest from it, and the farthest from their line.
+    fn spanning_corners(&self) -> Option<[u32; 3]> {
+        let a = self.corners().next()?;
+        let distance = |p: u32| {
+            let (p, a) = (self.at(p), self.at(a));
+            (0..3).map(|k| ((p[k] - a[k]) as f64).powi(2)).sum::<f64>()
+        };
+        let b = self.corners().max_by(|&p, &q| distance(p).total_cmp(&distance(q)))?;
+        let area = |p: u32| {
+            Plane::through(self.at(a), self.at(b), self.at(p)).n.map(|x| (x as f64).powi(2)).iter().sum::<f64>()
+        };
+        let c = self.corners().max_by(|&p, &q| area(p).total_cmp(&area(q)))?;
+        (area(c) > 0.0).then_some([a, b, c])
+    }
+
+    /// Twice the signed area of all loops in the projection along `axis`. Below 2^89 for 64 corners.
+    fn projected_area(&self, axis: usize) -> i128 {
+        self.edges()
+            .map(|[p, q]| {
+                let ([pu, pv], [qu, qv]) = (self.projected(p, axis), self.projected(q, axis));
+                i128::from(pu) * i128::from(qv) - i128::from(pv) * i128::from(qu)
+            })
+            .sum()
+    }
+
+    fn projected(&self, p: u32, axis: usize) -> [i64; 2] {
+        let x = self.at(p);
+        [x[(axis + 1) % 3], x[(axis + 2) % 3]]
+    }
+
+    /// No corner is used twice, and no two edges meet except at a common corner.
+    /// All pairs are tested: at most 64 corners.
+    fn is_simple(&self, axis: usize) -> bool {
+        let mut seen: Vec<u32> = self.corners().collect();
+        seen.sort_unstable();
+        let distinct = seen.windows(2).all(|w| w[0] != w[1]);
+        let edges: Vec<[u32; 2]> = self.edges().collect();
+        distinct
+            && edges.iter().enumerate().all(|(i, &e)| {
+                edges[i + 1..].iter().all(|&f| !self.edges_meet(e, f, axis))
+            })
+    }
+
+    /// Whether two edges share a point other than a common end.
+    fn edges_meet(&self, [a, b]: [u32; 2], [c, d]: [u32; 2], axis: usize) -> bool {
+        let turn = |p, q, r| turn(self.projected(p, axis), self.projected(q, axis), self.projected(r, axis));
+        let within = |p: u32, q: u32, r: u32| {
+            let (p, q, r) = (self.projected(p, axis), self.projected(q, axis), self.projected(r, axis));
+            (0..2).all(|k| p[k].min(q[k]) <= r[k] && r[k] <= p[k].max(q[k]))
+        };
+        let shared = [a, b].into_iter().filter(|p| [c, d].contains(p)).count();
+        if shared == 1 {
+            let (near, far) = if a == c || a == d { (a, b) } else { (b, a) };
+            let other = if near == c { d } else { c };
+            return turn(near, far, other) == Sign::Zero && (within(near, far, other) || within(near, other, far));
+        }
+        let signs = [turn(a, b, c), turn(a, b, d), turn(c, d, a), turn(c, d, b)];
+        let crossing = signs[0].times(signs[1]) != Sign::Positive && signs[2].times(signs[3]) != Sign::Positive;
+        crossing
+            && (signs.iter().all(|&s| s != Sign::Zero)
+                || [(a, b, c), (a, b, d), (c, d, a), (c, d, b)]
+                    .iter()
+                    .zip(signs)
+                    .any(|(&(p, q, r), s)| s == Sign::Zero && within(p, q, r)))
+    }
+
+    /// Triangles whose signed boundaries add up to the loops.
+    fn triangles(&self, axis: usize, positive: bool) -> Vec<[u32; 3]> {
+        if let [[a, b, c, d]] = self.loops {
+            return self.quadrilateral([*a, *b, *c, *d], axis);
+        }
+        self.delaunay(axis, positive).unwrap_or_else(|| self.fans())
+    }
+
+    /// The diagonal from the corner of lowest number, unless the triangles of the other one alone turn the same
+    /// way: the choice depends neither on where the loop starts nor on its direction.
+    fn quadrilateral(&self, corners: [u32; 4], axis: usize) -> Vec<[u32; 3]> {
+        let first = (0..4).min_by_key(|&i| corners[i]).expect("four corners");
+        let [a, b, c, d] = std::array::from_fn(|i| corners[(first + i) % 4]);
+        let turn = |p, q, r| turn(self.projected(p, axis), self.projected(q, axis), self.projected(r, axis));
+        let through_a = turn(a, b, c).times(turn(a, c, d)) == Sign::Positive;
+        let through_b = turn(a, b, d).times(turn(b, c, d)) == Sign::Positive;
+        if through_b && !through_a { vec![[a, b, d], [b, c, d]] } else { vec![[a, b, c], [a, c, d]] }
+    }
+
+    /// Constrained Delaunay triangles in the projection, `None` when the projected loops are not simple.
+    fn delaunay(&self, axis: usize, positive: bool) -> Option<Vec<[u32; 3]>> {
+        let mut corners: Vec<u32> = self.corners().collect();
+        corners.sort_unstable();
+        corners.dedup();
+        let local = |p: u32| corners.binary_search(&p).expect("a corner of this polygon");
+        let vertices = corners
+            .iter()
+            .map(|&p| {
+                let [u, v] = self.projected(p, axis);
+                Point2::new(u as f64, v as f64)
+            })
+            .collect();
+        let edges: Vec<[usize; 2]> = self.edges().map(|[p, q]| [local(p), local(q)]).collect();
+        let mut conflict = false;
+        let cdt = ConstrainedDelaunayTriangulation::<Point2<f64>>::try_bulk_load_cdt(vertices, edges.clone(), |_| {
+            conflict = true;
+        })
+        .ok()?;
+        if conflict || cdt.num_vertices() != corners.len() || cdt.num_constraints() != edges.len() {
+            return None;
+        }
+        let inside = faces_inside(&cdt);
+        let triangles: Vec<[u32; 3]> = cdt
+            .inner_faces()
+            .filter(|f| inside[f.fix().index()])
+            .map(|f| {
+                let [a, b, c] = f.vertices().map(|v| corners[v.fix().index()]);
+                if positive { [a, b, c] } else { [a, c, b] }
+            })
+            .collect();
+        self.is_bounded_by_loops(&triangles).then_some(triangles)
+    }
+
+    /// Each loop as a fan about its first corner: always a chain with the right boundary.
+    fn fans(&self) -> Vec<[u32; 3]> {
+        self.loops.iter().flat_map(|l| (1..l.len() - 1).map(move |i| [l[0], l[i], l[i + 1]])).collect()
+    }
+
+    fn is_bounded_by_loops(&self, triangles: &[[u32; 3]]) -> bool {
+        let undirected = |[p, q]: [u32; 2]| if p < q { ([p, q], 1i32) } else { ([q, p], -1) };
+        let mut sides: Vec<([u32; 2], i32)> = self.edges().map(undirected).map(|(e, s)| (e, -s)).collect();
+        for &[a, b, c] in triangles {
+            sides.extend([[a, b], [b, c], [c, a]].map(undirected));
+        }
+        sides.sort_unstable();
+        sides.chunk_by(|x, y| x.0 == y.0).all(|same| same.iter().map(|s| s.1).sum::<i32>() == 0)
+    }
+}
+
+/// Marks the faces that an odd number of constraint edges separates from the outside.
+fn faces_inside(cdt: &ConstrainedDelaunayTriangulation<Point2<f64>>) -> Vec<bool> {
+    let mut depth: Vec<Option<bool>> = vec![None; cdt.num_all_faces()];
+    depth[cdt.outer_face().fix().index()] = Some(false);
+    let mut stack = vec![cdt.outer_face().fix()];
+    while let Some(face) = stack.pop() {
+        let inside = depth[face.index()].expect("faces are marked before they are stacked");
+        let around: Vec<_> = match cdt.face(face).as_inner() {
+            Some(inner) => inner.adjacent_edges().to_vec(),
+            None => cdt.convex_hull().collect(),
+        };
+        for edge in around {
+            // The hull's edges come with the outer face on either side, depending on the iterator.
+            let other = if edge.face().fix() == face { edge.rev().face() } else { edge.face() };
+            let beyond = &mut depth[other.fix().index()];
+            if beyond.is_none() {
+                *beyond = Some(inside != edge.is_constraint_edge());
+                stack.push(other.fix());
+            }
+        }
+    }
+    depth.into_iter().map(|d| d.unwrap_or(false)).collect()
+}
+
+fn dominant_axis(n: [i128; 3]) -> usize {
+    (1..3).fold(0, |best, k| if n[k].abs() > n[best].abs() { k } else { best })
+}
+
+fn turn(a: [i64; 2], b: [i64; 2], c: [i64; 2]) -> Sign {
+    let d = |p: [i64; 2], k: usize| i128::from(p[k] - a[k]);
+    Sign::from(d(b, 0) * d(c, 1) - d(b, 1) * d(c, 0))
+}

@@ -1,0 +1,307 @@
+//! Stage 1: surfaces → points on the integer grid, edges, and facets with exact planes and provenance.
+//!
+//! Equal grid points are one point; polygons with the same corners are one polygon with several parents. Holds
+//! afterwards: each facet is exactly planar, its edges are in one table, and an edge is *soft* when it is only a
+//! diagonal inside a polygon.
+
+use crate::error::ArrangementError;
+use crate::grid::Grid;
+use crate::kernel::Geometry;
+use crate::polygon::{Polygon, Shape};
+use lar_core::{Cells, Surface};
+use rustc_hash::FxHashMap;
+
+/// A face of the input that a polygon stands for: `sign` is −1 when the polygon is turned the other way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Parent {
+    /// Index of the input surface.
+    pub solid: u32,
+    /// Face of that surface.
+    pub face: u32,
+    /// +1 or −1: the same orientation or the opposite one.
+    pub sign: i8,
+}
+
+/// The input on the grid.
+#[derive(Debug)]
+pub(crate) struct Soup {
+    pub geometry: Geometry,
+    pub grid: Grid,
+    /// Ends of each edge, the smaller first.
+    pub edges: Vec<[u32; 2]>,
+    /// Whether an edge is only a diagonal inside a nearly planar polygon.
+    pub soft: Vec<bool>,
+    /// Directed edges of each facet: 2 · edge + (1 when from the larger end to the smaller).
+    pub facet_edges: Cells,
+    /// The polygon that each facet is (a piece of).
+    pub facet_polygon: Vec<u32>,
+    pub polygon_parents: Vec<Vec<Parent>>,
+    /// Coefficient of each surface's faces in the boundary of its solid.
+    pub coefficients: Vec<Vec<i8>>,
+    /// Input faces without an inside (all corners on one line after snapping).
+    pub degenerate: u32,
+    /// Polygons that had to be triangulated.
+    pub triangulated: u32,
+}
+
+impl Soup {
+    /// Snaps and unifies; refuses non-finite coordinates and indices out of range.
+    ///
+    /// Polygons whose corners deviate from a plane by more than `flatness` grid steps are not treated as planar:
+    /// their diagonals become edges of the result.
+    pub(crate) fn new(surfaces: &[Surface], flatness: f64) -> Result<Self, ArrangementError> {
+        let grid = fitted_grid(surfaces)?;
+        let (points, point_of) = unified_points(surfaces, &grid);
+        let mut builder = Builder {
+            soup: Self {
+                geometry: Geometry::new(points),
+                grid,
+                edges: Vec::new(),
+                soft: Vec::new(),
+                facet_edges: Cells::new(),
+                facet_polygon: Vec::new(),
+                polygon_parents: Vec::new(),
+                coefficients: Vec::new(),
+                degenerate: 0,
+                triangulated: 0,
+            },
+            edge_ids: FxHashMap::default(),
+            triangle_ids: FxHashMap::default(),
+            polygon_ids: FxHashMap::default(),
+            flatness,
+        };
+        for (solid, (surface, point_of)) in surfaces.iter().zip(&point_of).enumerate() {
+            for face in 0..surface.n_faces() {
+                builder.push_face(solid, surface, face, point_of);
+            }
+            builder.soup.coefficients.push((0..surface.n_faces()).map(|f| surface.coefficient(f)).collect());
+        }
+        Ok(builder.soup)
+    }
+
+    pub(crate) fn n_facets(&self) -> usize {
+        self.facet_polygon.len()
+    }
+
+    /// First and last point of a directed edge.
+    pub(crate) fn directed(&self, edge: u32) -> [u32; 2] {
+        let [a, b] = self.edges[(edge / 2) as usize];
+        if edge.is_multiple_of(2) { [a, b] } else { [b, a] }
+    }
+
+    /// Parents of a facet.
+    pub(crate) fn parents(&self, facet: u32) -> &[Parent] {
+        &self.polygon_parents[self.facet_polygon[facet as usize] as usize]
+    }
+}
+
+fn fitted_grid(surfaces: &[Surface]) -> Result<Grid, ArrangementError> {
+    let (mut lo, mut hi) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for surface in surfaces {
+        if surface.points.dim() != 3 {
+            return Err(ArrangementError::Dimension { solid: surface.name.clone(), dim: surface.points.dim() });
+        }
+        for (v, p) in surface.points.iter().enumerate() {
+            for k in 0..3 {
+                if !p[k].is_finite() {
+                    return Err(ArrangementError::NotFinite {
+                        solid: surface.name.clone(),
+                        vertex: (v as u32).into(),
+                        value: p[k],
+                    });
+                }
+                lo[k] = lo[k].min(p[k]);
+                hi[k] = hi[k].max(p[k]);
+            }
+        }
+        for face in 0..surface.n_faces() {
+            if let Some(&vertex) = surface.face(face).flatten().find(|&&v| v as usize >= surface.points.len()) {
+                return Err(ArrangementError::NoSuchVertex {
+                    solid: surface.name.clone(),
+                    face: (face as u32).into(),
+                    vertex: vertex.into(),
+                    n_vertices: surface.points.len(),
+                });
+            }
+        }
+    }
+    Ok(if lo[0] <= hi[0] { Grid::fitted(lo, hi) } else { Grid::fitted([0.0; 3], [0.0; 3]) })
+}
+
+/// Distinct grid points in first-seen order, and for each surface the grid point of each of its vertices.
+fn unified_points(surfaces: &[Surface], grid: &Grid) -> (Vec<[i64; 3]>, Vec<Vec<u32>>) {
+    let mut points = Vec::new();
+    let mut ids: FxHashMap<[i64; 3], u32> = FxHashMap::default();
+    let of = surfaces
+        .iter()
+        .map(|surface| {
+            surface
+                .points
+                .iter()
+                .map(|p| {
+                    let snapped = grid.snap([p[0], p[1], p[2]]);
+                    *ids.entry(snapped).or_insert_with(|| {
+                        points.push(snapped);
+                        points.len() as u32 - 1
+                    })
+                })
+                .collect()
+        })
+        .collect();
+    (points, of)
+}
+
+struct Builder {
+    soup: Soup,
+    edge_ids: FxHashMap<[u32; 2], u32>,
+    triangle_ids: FxHashMap<[u32; 3], (u32, bool)>,
+    polygon_ids: FxHashMap<Vec<u32>, (u32, bool)>,
+    flatness: f64,
+}
+
+impl Builder {
+    fn push_face(&mut self, solid: usize, surface: &Surface, face: usize, point_of: &[u32]) {
+        let mut loops: Vec<Vec<u32>> = surface
+            .face(face)
+            .map(|l| without_repetition(l.iter().map(|&v| point_of[v as usize])))
+            .collect();
+        loops.retain(|l| l.len() >= 3);
+        let Some(key) = canonical(&loops) else {
+            self.soup.degenerate += 1;
+            return;
+        };
+        let known = match key.as_slice() {
+            &[a, b, c] => self.triangle_ids.get(&[a, b, c]).copied(),
+            _ => self.polygon_ids.get(&key).copied(),
+        };
+        let reversed = is_reversed(&loops[0]);
+        if let Some((polygon, first_reversed)) = known {
+            self.push_parent(polygon, solid, face, if reversed == first_reversed { 1 } else { -1 });
+            return;
+        }
+        let polygon = self.soup.polygon_parents.len() as u32;
+        if !self.push_polygon(&loops, polygon) {
+            self.soup.degenerate += 1;
+            return;
+        }
+        self.soup.polygon_parents.push(Vec::with_capacity(1));
+        self.push_parent(polygon, solid, face, 1);
+        match key.as_slice() {
+            &[a, b, c] => self.triangle_ids.insert([a, b, c], (polygon, reversed)),
+            _ => self.polygon_ids.insert(key, (polygon, reversed)),
+        };
+    }
+
+    fn push_parent(&mut self, polygon: u32, solid: usize, face: usize, sign: i8) {
+        self.soup.polygon_parents[polygon as usize].push(Parent { solid: solid as u32, face: face as u32, sign });
+    }
+
+    /// Adds the facets of a polygon; false when it has no inside.
+    fn push_polygon(&mut self, loops: &[Vec<u32>], polygon: u32) -> bool {
+        let views: Vec<&[u32]> = loops.iter().map(Vec::as_slice).collect();
+        let shape = Polygon { points: &self.soup.geometry.points, loops: &views };
+        match shape.shape() {
+            Shape::Planar { base } => {
+                let edges = loops.iter().flat_map(|l| (0..l.len()).map(|i| [l[i], l[(i + 1) % l.len()]]));
+                self.push_facet(base, edges, polygon, |_| false);
+                true
+            }
+            Shape::Triangles(triangles) => {
+                let flat = shape.deviation() <= self.flatness;
+                self.push_triangles(loops, &triangles, polygon, flat)
+            }
+            Shape::Degenerate => false,
+        }
+    }
+
+    fn push_triangles(&mut self, loops: &[Vec<u32>], triangles: &[[u32; 3]], polygon: u32, flat: bool) -> bool {
+        let mut sides: Vec<[u32; 2]> =
+            loops.iter().flat_map(|l| (0..l.len()).map(|i| ascending([l[i], l[(i + 1) % l.len()]]))).collect();
+        sides.sort_unstable();
+        let before = self.soup.n_facets();
+        for &[a, b, c] in triangles {
+            let corner = |p: u32| self.soup.geometry.points[p as usize];
+            if crate::kernel::Plane::through(corner(a), corner(b), corner(c)).n == [0; 3] {
+                continue;
+            }
+            let edges = [[a, b], [b, c], [c, a]].into_iter();
+            self.push_facet([a, b, c], edges, polygon, |e| flat && sides.binary_search(&e).is_err());
+        }
+        self.soup.triangulated += 1;
+        self.soup.n_facets() > before
+    }
+
+    fn push_facet(
+        &mut self,
+        base: [u32; 3],
+        edges: impl Iterator<Item = [u32; 2]>,
+        polygon: u32,
+        is_soft: impl Fn([u32; 2]) -> bool,
+    ) {
+        let directed: Vec<u32> = edges
+            .map(|[p, q]| {
+                let ends = ascending([p, q]);
+                let soft = is_soft(ends);
+                2 * self.edge(ends, soft) + u32::from(p > q)
+            })
+            .collect();
+        self.soup.facet_edges.push(&directed);
+        self.soup.facet_polygon.push(polygon);
+        self.soup.geometry.push_facet(base);
+    }
+
+    fn edge(&mut self, ends: [u32; 2], soft: bool) -> u32 {
+        let soup = &mut self.soup;
+        let id = *self.edge_ids.entry(ends).or_insert_with(|| {
+            soup.edges.push(ends);
+            soup.soft.push(true);
+            soup.edges.len() as u32 - 1
+        });
+        soup.soft[id as usize] &= soft;
+        id
+    }
+}
+
+fn ascending([p, q]: [u32; 2]) -> [u32; 2] {
+    [p.min(q), p.max(q)]
+}
+
+/// The cyclic list without equal neighbours.
+fn without_repetition(cycle: impl Iterator<Item = u32>) -> Vec<u32> {
+    let mut out: Vec<u32> = cycle.collect();
+    out.dedup();
+    while out.len() > 1 && out.first() == out.last() {
+        out.pop();
+    }
+    out
+}
+
+/// A key that is equal for polygons with the same loops, wherever these start and whichever way they turn.
+fn canonical(loops: &[Vec<u32>]) -> Option<Vec<u32>> {
+    let outer = loops.first()?;
+    if let [a, b, c] = outer.as_slice()
+        && loops.len() == 1
+    {
+        let mut key = [*a, *b, *c];
+        key.sort_unstable();
+        return (key[0] != key[1] && key[1] != key[2]).then(|| key.to_vec());
+    }
+    let mut keys: Vec<Vec<u32>> = loops.iter().map(|l| canonical_cycle(l)).collect();
+    keys[1..].sort_unstable();
+    Some(keys.join(&u32::MAX))
+}
+
+/// The cycle from its smallest entry towards the smaller of that entry's neighbours.
+fn canonical_cycle(cycle: &[u32]) -> Vec<u32> {
+    let n = cycle.len();
+    let start = (0..n).min_by_key(|&i| cycle[i]).expect("loops have corners");
+    let reversed = is_reversed(cycle);
+    (0..n).map(|i| cycle[if reversed { (start + n - i) % n } else { (start + i) % n }]).collect()
+}
+
+/// Whether the canonical form of the cycle runs against it.
+fn is_reversed(cycle: &[u32]) -> bool {
+    let n = cycle.len();
+    let start = (0..n).min_by_key(|&i| cycle[i]).expect("loops have corners");
+    cycle[(start + n - 1) % n] < cycle[(start + 1) % n]
+}

@@ -1,0 +1,94 @@
+//! Stage 2c: every input edge is split once, globally, at all points found on it; both its facets see the same
+//! pieces. Also the lists of what lies inside each facet.
+
+use crate::crossing::{Contacts, Segment};
+use crate::interner::Interner;
+use crate::kernel::Along;
+use crate::soup::Soup;
+use lar_core::Cells;
+
+/// The contacts of all facets, by edge and by facet.
+#[derive(Debug)]
+pub(crate) struct Cuts {
+    /// Points inside each edge, from its first end to its second.
+    pub inner: Cells,
+    /// Sorted by facet.
+    segments: Vec<Segment>,
+    segment_offsets: Vec<u32>,
+    touches: Vec<(u32, u32)>,
+    touch_offsets: Vec<u32>,
+}
+
+impl Cuts {
+    /// Unifies the vertices of the contacts and sorts everything.
+    pub(crate) fn new(soup: &Soup, contacts: Contacts, interner: &mut Interner) -> Self {
+        let geometry = &soup.geometry;
+        let n_points = geometry.points.len() as u32;
+        let ids: Vec<u32> = contacts.vertices.into_iter().map(|v| interner.intern(v, geometry)).collect();
+        let id = |v: u32| if v < n_points { v } else { ids[(v - n_points) as usize] };
+        let mut splits: Vec<(u32, u32)> = contacts.splits.into_iter().map(|(e, v)| (e, id(v))).collect();
+        splits.sort_unstable();
+        splits.dedup();
+        let mut segments: Vec<Segment> =
+            contacts.segments.into_iter().map(|s| Segment { ends: s.ends.map(id), ..s }).collect();
+        segments.sort_by_key(|s| (s.facet, s.other, s.ends));
+        let mut touches: Vec<(u32, u32)> = contacts.touches.into_iter().map(|(f, v)| (f, id(v))).collect();
+        touches.sort_unstable();
+        touches.dedup();
+        let n_facets = soup.n_facets();
+        Self {
+            inner: sorted_along_edges(soup, &splits, interner),
+            segment_offsets: offsets(n_facets, segments.iter().map(|s| s.facet)),
+            touch_offsets: offsets(n_facets, touches.iter().map(|t| t.0)),
+            segments,
+            touches,
+        }
+    }
+
+    /// The segments inside a facet.
+    pub(crate) fn segments(&self, facet: u32) -> &[Segment] {
+        let f = facet as usize;
+        &self.segments[self.segment_offsets[f] as usize..self.segment_offsets[f + 1] as usize]
+    }
+
+    /// The points inside a facet where another only touches it.
+    pub(crate) fn touches(&self, facet: u32) -> impl Iterator<Item = u32> + '_ {
+        let f = facet as usize;
+        self.touches[self.touch_offsets[f] as usize..self.touch_offsets[f + 1] as usize].iter().map(|t| t.1)
+    }
+}
+
+/// Where each of 0..n begins in a sorted list of them.
+fn offsets(n: usize, sorted: impl Iterator<Item = u32>) -> Vec<u32> {
+    let mut offsets = vec![0; n + 1];
+    for x in sorted {
+        offsets[x as usize + 1] += 1;
+    }
+    for i in 0..n {
+        offsets[i + 1] += offsets[i];
+    }
+    offsets
+}
+
+fn sorted_along_edges(soup: &Soup, splits: &[(u32, u32)], interner: &Interner) -> Cells {
+    let geometry = &soup.geometry;
+    let mut inner = Cells::with_capacity(soup.edges.len(), splits.len());
+    let mut rest = splits;
+    let mut on_edge = Vec::new();
+    for (&ends, edge) in soup.edges.iter().zip(0..) {
+        let n = rest.iter().take_while(|s| s.0 == edge).count();
+        on_edge.clear();
+        on_edge.extend(rest[..n].iter().map(|s| s.1));
+        rest = &rest[n..];
+        if n > 1 {
+            let (axis, sign) = geometry.axis_of(&geometry.direction(Along::Edge(ends)));
+            let vertex = |v: u32| &interner.vertices[v as usize];
+            on_edge.sort_by(|&a, &b| geometry.cmp_coordinate(vertex(a), vertex(b), axis));
+            if sign == crate::kernel::Sign::Negative {
+                on_edge.reverse();
+            }
+        }
+        inner.push(&on_edge);
+    }
+    inner
+}

@@ -1,0 +1,122 @@
+//! Stage 4: topological gift wrapping in linear time. The sides of the faces are joined around every edge; each
+//! class of joined sides is a *shell*, a closed 2-cycle.
+//!
+//! The algorithm of the papers (Paoluzzi et al., "Topological computing of arrangements with (co)chains", §4;
+//! CAD 155, §3) grows one 2-cycle at a time by adding, at every boundary edge, the next face around it. Read as
+//! orbits that is a union-find on face sides: the same shells, whatever the order, and it cannot loop.
+//!
+//! Around an edge with direction t, a face whose loop runs along t (sign σ = +1) or against it (−1) and whose
+//! normal is n lies on the side (σ n) × t. Seen from the tip of t, the angular order of these sides is that of the
+//! vectors σ n, so faces are sorted by signs of det(n1, n2, t): no angle and no vertex coordinate is involved.
+//!
+//! ```text
+//!                 f2            side codes: 2f front (where the normal points), 2f + 1 back
+//!                 |  front      a ring entry is 2f + (1 when σ = −1): the code of the side
+//!       back  f3  |             that comes next, counter-clockwise
+//!        ─────────t───────── f1
+//!                 |             joined: next(f1) with before(f2), next(f2) with before(f3), …
+//! ```
+
+use crate::kernel::{Geometry, Sign};
+use crate::parallel;
+use crate::skeleton::Skeleton;
+use crate::union_find::UnionFind;
+use lar_core::Cells;
+use std::cmp::Ordering;
+
+/// For every edge the faces around it, counter-clockwise seen from the tip of its direction: 2 · face, + 1 where
+/// the face's loop runs against the edge. A face may stand there twice (both sides of a slit).
+pub(crate) fn rings(skeleton: &Skeleton, geometry: &Geometry) -> Cells {
+    let n = skeleton.edges.len();
+    let mut offsets = vec![0u32; n + 1];
+    for &h in skeleton.loops.indices() {
+        offsets[(h / 2) as usize + 1] += 1;
+    }
+    for e in 0..n {
+        offsets[e + 1] += offsets[e];
+    }
+    let mut fill = offsets.clone();
+    let mut entries = vec![0; skeleton.loops.indices().len()];
+    for face in 0..skeleton.n_faces() as u32 {
+        for h in skeleton.half_edges(face) {
+            let at = &mut fill[(h / 2) as usize];
+            entries[*at as usize] = 2 * face + h % 2;
+            *at += 1;
+        }
+    }
+    let (n_chunks, range) = parallel::chunks(n, 4096);
+    let sorted = parallel::map(n_chunks, |chunk| {
+        let mut out = Vec::new();
+        for edge in range(chunk) {
+            let ring = &entries[offsets[edge] as usize..offsets[edge + 1] as usize];
+            out.extend_from_slice(ring);
+            if ring.len() > 2 {
+                let at = out.len() - ring.len();
+                sort_ring(&mut out[at..], edge as u32, skeleton, geometry);
+            }
+        }
+        out
+    })
+    .concat();
+    Cells::from_parts(offsets, sorted)
+}
+
+fn sort_ring(ring: &mut [u32], edge: u32, skeleton: &Skeleton, geometry: &Geometry) {
+    let first = ring[0];
+    let half = |entry: u32| match turn(first, entry, edge, skeleton, geometry) {
+        Sign::Zero if opposite(first, entry, skeleton, geometry) => 2u8,
+        Sign::Zero => 0,
+        Sign::Positive => 1,
+        Sign::Negative => 3,
+    };
+    let mut keyed: Vec<(u8, u32)> = ring.iter().map(|&entry| (half(entry), entry)).collect();
+    keyed.sort_by(|a, b| {
+        a.0.cmp(&b.0).then_with(|| match turn(a.1, b.1, edge, skeleton, geometry) {
+            Sign::Positive => Ordering::Less,
+            Sign::Zero => Ordering::Equal,
+            Sign::Negative => Ordering::Greater,
+        })
+    });
+    for (entry, (_, sorted)) in ring.iter_mut().zip(keyed) {
+        *entry = sorted;
+    }
+}
+
+/// Sign of the turn about the edge that leads from one face to another by less than half a turn.
+pub(crate) fn turn(a: u32, b: u32, edge: u32, skeleton: &Skeleton, geometry: &Geometry) -> Sign {
+    let (f, g) = (skeleton.facet(a / 2), skeleton.facet(b / 2));
+    if f == g {
+        return Sign::Zero;
+    }
+    let sign = geometry.turn_about(f, g, &skeleton.directions[edge as usize]);
+    if (a ^ b) % 2 == 0 { sign } else { -sign }
+}
+
+/// For two faces in one plane: whether they lie on opposite sides of their edge.
+fn opposite(a: u32, b: u32, skeleton: &Skeleton, geometry: &Geometry) -> bool {
+    let same_way = geometry.same_way(skeleton.facet(a / 2), skeleton.facet(b / 2));
+    same_way != ((a ^ b) % 2 == 0)
+}
+
+/// Shell of each face side (2f front, 2f + 1 back), numbered by the first side in them, and their number.
+pub(crate) fn shells(rings: &Cells, n_faces: usize) -> (Vec<u32>, u32) {
+    let mut sides = UnionFind::new(2 * n_faces);
+    for ring in rings.iter() {
+        for (i, &entry) in ring.iter().enumerate() {
+            let next = ring[(i + 1) % ring.len()];
+            sides.union(entry, next ^ 1);
+        }
+    }
+    sides.labels()
+}
+
+/// Component of each face: faces are connected through common edges.
+pub(crate) fn components(rings: &Cells, n_faces: usize) -> (Vec<u32>, u32) {
+    let mut faces = UnionFind::new(n_faces);
+    for ring in rings.iter() {
+        for pair in ring.windows(2) {
+            faces.union(pair[0] / 2, pair[1] / 2);
+        }
+    }
+    faces.labels()
+}
