@@ -1,1 +1,39 @@
-//! Placeholder while the crate is being written.
+//! Triangulation of the polygonal faces of a chain complex (stage 7), of polygons with holes, and of points.
+//!
+//! ```text
+//! ChainComplex ──loops──▶ FaceLoops ──face by face──▶ Triangulation ──signs of ∂3──▶ TriangleMesh of a cell
+//!
+//! one face:  flat (project, scale) ─┬─ 3, 4 corners: at once
+//!                                   ├─ few corners, no hole: ears ─┐
+//!                                   └─ others: cdt (spade), checked ─┴─▶ flips ─▶ the constrained Delaunay triangulation
+//!                                        └─ rounding broke the loops: ring of bridges, ears; else fan
+//! ```
+//!
+//! What is promised for each face:
+//! - no point is invented, and every loop edge is an edge of exactly one triangle, in its direction ([`check_laws`]);
+//! - triangles turn like the face;
+//! - all decisions are taken with exact predicates on the given positions;
+//! - the result is *the* constrained Delaunay triangulation, ties going to the smallest index, and so independent of the
+//!   order of the input, unless rounding made the face untriangulable, which is counted ([`Triangulation::fallbacks`]).
+
+mod cdt;
+mod complex;
+mod ears;
+mod error;
+mod face;
+mod fan;
+mod flat;
+mod flips;
+mod laws;
+mod loops;
+mod planar;
+mod predicates;
+mod ring;
+mod tree;
+
+pub use complex::{CellTriangles, Triangulation, triangulate, triangulate_cells};
+pub use error::TriangulateError;
+pub use face::{Quality, Triangulator, triangulate_face};
+pub use laws::{BrokenLaw, check_laws};
+pub use loops::FaceLoops;
+pub use planar::{delaunay, triangulate2d};

@@ -1,0 +1,128 @@
+//! Constrained Delaunay triangulation through spade, with every case excluded in which it could panic, loop or
+//! depend on the order of a hash table.
+//!
+//! | what would go wrong | why it cannot happen |
+//! |---|---|
+//! | coordinates out of range, NaN | the caller scales by a power of two and replaces what is not finite |
+//! | a duplicate point replaces its twin | points are checked to be distinct |
+//! | points on one line are sorted again at each insertion | the first three inserted are not collinear |
+//! | bulk loading: rounded angles of the hull, points skipped into a hash set | points are inserted one by one, which uses exact predicates only |
+//! | a constraint crosses another, or a point lies on it | the constraint is walked first |
+//!
+//! Insertion in an order mixed by a fixed generator with a hierarchy of hints costs O(n log n) expected.
+
+use crate::predicates::{Xy, orient};
+use spade::handles::{FixedFaceHandle, FixedVertexHandle, InnerTag};
+use spade::{
+    ConstrainedDelaunayTriangulation, HierarchyHintGenerator, Intersection, LineIntersectionIterator, Point2,
+    Triangulation as _,
+};
+
+/// The flag of an edge tells whether crossing it goes from inside to outside.
+type Plane = ConstrainedDelaunayTriangulation<Point2<f64>, (), Wall, (), HierarchyHintGenerator<f64>>;
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Wall(bool);
+
+/// A Delaunay triangulation of distinct points that takes constraints.
+pub(crate) struct Cdt {
+    plane: Plane,
+    /// Caller's index of each vertex, and back.
+    outside: Vec<u32>,
+    handles: Vec<Option<FixedVertexHandle>>,
+}
+
+impl Cdt {
+    /// The Delaunay triangulation of the points `use_of` of `xy`; `None` when two of them coincide or all are collinear.
+    pub(crate) fn new(xy: &[Xy], mut used: Vec<u32>) -> Option<Self> {
+        let at = |i: u32| xy[i as usize];
+        used.sort_unstable_by(|&i, &j| {
+            at(i)[0].total_cmp(&at(j)[0]).then(at(i)[1].total_cmp(&at(j)[1])).then(i.cmp(&j))
+        });
+        if used.windows(2).any(|w| at(w[0]) == at(w[1])) {
+            return None;
+        }
+        shuffle(&mut used);
+        let (&a, &b) = (used.first()?, used.get(1)?);
+        let third = used.iter().position(|&c| orient(at(a), at(b), at(c)) != 0.0)?;
+        used.swap(2, third);
+        let mut plane = Plane::new();
+        let mut handles = vec![None; xy.len()];
+        for &i in &used {
+            let handle = plane.insert(Point2::new(at(i)[0], at(i)[1])).ok()?;
+            handles[i as usize] = Some(handle);
+        }
+        (plane.num_vertices() == used.len()).then_some(Self { plane, outside: used, handles })
+    }
+
+    /// Adds an edge as a wall; adding it again takes the wall away and leaves the edge. `None`, and nothing added, when
+    /// it crosses another wall or passes through a point.
+    pub(crate) fn add_wall(&mut self, from: u32, to: u32) -> Option<()> {
+        let (from, to) = (self.handles[from as usize]?, self.handles[to as usize]?);
+        if from == to || !self.is_free(from, to) {
+            return None;
+        }
+        let added = self.plane.try_add_constraint(from, to);
+        for edge in &added {
+            let wall = self.plane.undirected_edge_data_mut(edge.as_undirected()).data_mut();
+            wall.0 = !wall.0;
+        }
+        (added.len() == 1).then_some(())
+    }
+
+    fn is_free(&self, from: FixedVertexHandle, to: FixedVertexHandle) -> bool {
+        LineIntersectionIterator::new_from_handles(&self.plane, from, to).all(|met| match met {
+            Intersection::EdgeIntersection(edge) => !edge.is_constraint_edge(),
+            Intersection::VertexIntersection(v) => v.fix() == from || v.fix() == to,
+            Intersection::EdgeOverlap(edge) => edge.from().fix() == from && edge.to().fix() == to,
+        })
+    }
+
+    /// All triangles.
+    pub(crate) fn triangles(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
+        self.plane.inner_faces().map(|face| self.vertices(face.fix()))
+    }
+
+    /// The triangles that are separated from the outside by an odd number of walls.
+    pub(crate) fn inner_triangles(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
+        let inside = self.flood();
+        self.plane
+            .inner_faces()
+            .filter(move |face| inside[face.index()] == Some(true))
+            .map(|face| self.vertices(face.fix()))
+    }
+
+    /// For each face (0 is the outer one), the parity of the walls between it and the outside.
+    fn flood(&self) -> Vec<Option<bool>> {
+        let mut inside = vec![None; self.plane.num_all_faces()];
+        inside[self.plane.outer_face().index()] = Some(false);
+        let mut stack: Vec<_> = self.plane.convex_hull().map(|edge| (edge, false)).collect();
+        while let Some((edge, parity)) = stack.pop() {
+            // `parity` is that of the face left of the edge; the one to its right comes next.
+            let across = edge.rev();
+            let parity = parity ^ edge.as_undirected().data().data().0;
+            let face = across.face();
+            if inside[face.index()].is_none() {
+                inside[face.index()] = Some(parity);
+                stack.push((across.next(), parity));
+                stack.push((across.prev(), parity));
+            }
+        }
+        inside
+    }
+
+    fn vertices(&self, face: FixedFaceHandle<InnerTag>) -> [u32; 3] {
+        self.plane.face(face).vertices().map(|v| self.outside[v.index()])
+    }
+}
+
+/// Mixes a list by a fixed sequence (Fisher–Yates over a xorshift generator), the same on every run.
+fn shuffle(list: &mut [u32]) {
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+    for i in (1..list.len()).rev() {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        list.swap(i, (state % (i as u64 + 1)) as usize);
+    }
+}
