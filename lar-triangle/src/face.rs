@@ -16,7 +16,7 @@ use crate::laws::check_laws;
 use crate::predicates::{incircle, orient};
 use lar_core::Points;
 
-/// Up to this number of corners ears and flips beat spade (measured: even at about 100), and their quadratic worst
+/// Up to this number of corners ears and flips beat spade (measured: about even here), and their quadratic worst
 /// case does not matter.
 const SMALL: usize = 64;
 
@@ -220,5 +220,96 @@ pub(crate) fn smallest_first([a, b, c]: [u32; 3]) -> [u32; 3] {
         [c, a, b]
     } else {
         [a, b, c]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A star around the origin with smaller stars as holes, on a lattice so that many points lie on common circles.
+    fn lattice_star(corners: usize, holes: usize, seed: u64) -> (Points, Vec<Vec<u32>>) {
+        let mut state = seed;
+        let mut random = move || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as f64 / f64::from(1 << 24)
+        };
+        let mut coords = Vec::new();
+        let mut loops: Vec<Vec<u32>> = Vec::new();
+        let mut star = |n: usize, centre: [f64; 2], sign: f64, low: f64, high: f64| {
+            let first = coords.len() as u32 / 2;
+            for i in 0..n {
+                let (s, c) = (sign * std::f64::consts::TAU * i as f64 / n as f64).sin_cos();
+                let r = low + (high - low) * random();
+                coords.extend([(centre[0] + r * c).round(), (centre[1] + r * s).round()]);
+            }
+            loops.push((first..first + n as u32).collect());
+        };
+        star(corners, [0.0, 0.0], 1.0, 90.0, 160.0);
+        for h in 0..holes {
+            let (s, c) = (std::f64::consts::TAU * h as f64 / holes as f64).sin_cos();
+            star(4 + h % 5, [45.0 * c, 45.0 * s], -1.0, 5.0, 14.0);
+        }
+        (Points::from_columns(2, coords), loops)
+    }
+
+    fn by_ears(triangulator: &mut Triangulator) -> bool {
+        triangulator.corners.clear();
+        let proper = triangulator.ears.clip(&triangulator.flat, &mut triangulator.corners);
+        triangulator.flips.legalize(
+            &mut triangulator.corners,
+            &triangulator.flat.xy,
+            &triangulator.flat.ids,
+            &[],
+        );
+        proper
+    }
+
+    fn sorted(triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
+        let mut sorted: Vec<_> = triangles.iter().map(|&t| smallest_first(t)).collect();
+        sorted.sort_unstable();
+        sorted
+    }
+
+    /// Both ways to a proper triangulation end in the same one.
+    #[track_caller]
+    fn check_ways_agree(points: &Points, loops: &[Vec<u32>]) {
+        let mut triangulator = Triangulator::new();
+        triangulator.flat.load(points, loops.iter().map(Vec::as_slice)).expect("well-formed");
+        assert!(triangulator.flat.identify());
+        assert!(triangulator.delaunay());
+        let through_spade = sorted(&triangulator.corners);
+        assert!(by_ears(&mut triangulator));
+        assert!(triangulator.is_lawful());
+        assert_eq!(sorted(&triangulator.corners), through_spade);
+    }
+
+    #[test]
+    fn ears_and_spade_agree() {
+        for seed in 0..300 {
+            let (points, loops) = lattice_star(5 + seed as usize % 60, seed as usize % 7, seed);
+            check_ways_agree(&points, &loops);
+        }
+    }
+
+    #[test]
+    fn the_fan_is_lawful() {
+        let points = Points::from_columns(2, vec![0.0; 200]);
+        for sizes in [&[3][..], &[3, 3], &[4, 3, 3], &[3, 5, 4, 3], &[9, 3, 3, 3, 3, 12]] {
+            let mut first = 0;
+            let mut triangulator = Triangulator::new();
+            let loops = sizes.iter().map(|&n| {
+                first += n;
+                (first - n..first).collect::<Vec<u32>>()
+            });
+            let loops: Vec<Vec<u32>> = loops.collect();
+            triangulator.flat.load(&points, loops.iter().map(Vec::as_slice)).expect("well-formed");
+            fan(&triangulator.flat, &mut triangulator.corners);
+            assert_eq!(
+                check_laws(loops.iter().map(Vec::as_slice), &triangulator.corners),
+                Ok(()),
+                "{sizes:?}"
+            );
+        }
     }
 }

@@ -1,4 +1,8 @@
 //! The boundary of each face of a complex as closed loops of vertices, read off ∂1 and ∂2.
+//!
+//! `ChainComplex::face_loops` gives the loops of one face of a complex that is known to be valid. Here all faces are
+//! read, into flat arrays and with the outer loop first, and a complex that is not valid is refused with the cell
+//! that is wrong.
 
 use crate::TriangulateError;
 use crate::flat::newell;

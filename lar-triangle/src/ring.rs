@@ -14,7 +14,7 @@
 //! are rounded: a bridge that touches something by rounding costs a badly shaped triangle, never a broken law.
 
 use crate::flat::Flat;
-use crate::predicates::{Xy, orient};
+use crate::predicates::{Xy, in_closed_triangle, orient};
 
 const NONE: u32 = u32::MAX;
 
@@ -187,15 +187,17 @@ impl Ring {
         let below = e[1] < p[1];
         let triangle = if below { [p, [x, p[1]], e] } else { [p, e, [x, p[1]]] };
         let own = self.loop_of[hole as usize];
-        let mut best = (slope(e), e[0] - p[0], end);
+        let mut best = (slope(e), p[0] - e[0], end);
         for &i in self.slabs.range(p[1].min(e[1]), p[1].max(e[1])) {
             let v = flat.xy[i as usize];
             let l = self.loop_of[i as usize];
-            if l == own || !self.merged[l as usize] || !crate::predicates::in_closed_triangle(triangle, v) {
+            // A triangle without height holds its whole line: what lies to the right is left out by itself.
+            let inside = v[0] < p[0] && in_closed_triangle(triangle, v);
+            if l == own || !self.merged[l as usize] || !inside {
                 continue;
             }
             let here = (slope(v), p[0] - v[0], i);
-            if here.0 < best.0 || (here.0 == best.0 && here.1 < best.1.abs()) {
+            if here.0 < best.0 || (here.0 == best.0 && here.1 < best.1) {
                 best = here;
             }
         }

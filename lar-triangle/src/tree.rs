@@ -1,8 +1,8 @@
 //! A balanced tree of tight boxes over fixed points, some of them active: "is any active point in this triangle?"
 //!
 //! A grid would do for well spread corners, but not for the long rows of collinear ones that combs leave: each ear
-//! over such a row would look at all of it. Here a box is skipped as soon as it lies outside one side of the
-//! triangle (decided exactly), or has no active point.
+//! over such a row would look at all of it. Here a box is skipped as soon as a side separates it from the
+//! triangle (decided exactly), or it has no active point.
 
 use crate::predicates::{Xy, orient};
 
@@ -96,12 +96,45 @@ impl Tree {
     }
 }
 
-/// True when the box lies strictly on the outer side of one edge of the triangle.
+/// True when the box and the counter-clockwise triangle have no common point: a side of one of them separates
+/// them. Exact.
 fn is_outside([a, b, c]: [Xy; 3], [low, high]: [Xy; 2]) -> bool {
-    [(a, b), (b, c), (c, a)].into_iter().any(|(s, t)| {
-        // The corner of the box that lies furthest to the left of s–t.
-        let x = if t[1] < s[1] { high[0] } else { low[0] };
-        let y = if s[0] < t[0] { high[1] } else { low[1] };
-        orient(s, t, [x, y]) < 0.0
-    })
+    let beside = |k: usize| a[k].max(b[k]).max(c[k]) < low[k] || high[k] < a[k].min(b[k]).min(c[k]);
+    beside(0)
+        || beside(1)
+        || [(a, b), (b, c), (c, a)].into_iter().any(|(s, t)| {
+            // The corner of the box that lies furthest to the left of s–t.
+            let x = if t[1] < s[1] { high[0] } else { low[0] };
+            let y = if s[0] < t[0] { high[1] } else { low[1] };
+            orient(s, t, [x, y]) < 0.0
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::predicates::in_closed_triangle;
+
+    #[test]
+    fn finds_what_a_search_of_all_points_finds() {
+        let lattice = |i: u32| [f64::from(i * 37 % 23), f64::from(i * 11 % 19)];
+        for n in [1, 7, 8, 9, 100, 437] {
+            let xy: Vec<Xy> = (0..n).map(lattice).collect();
+            let mut tree = Tree::default();
+            tree.fill(&xy);
+            let active: Vec<u32> = (0..n).filter(|i| i % 3 == 0).collect();
+            active.iter().for_each(|&i| tree.set(i, true));
+            for t in 0..200 {
+                let mut triangle = [lattice(t), lattice(5 * t + 1), lattice(7 * t + 3)];
+                if orient(triangle[0], triangle[1], triangle[2]) < 0.0 {
+                    triangle.swap(0, 1);
+                }
+                let inside = |&i: &u32| i % 3 == 0 && in_closed_triangle(triangle, xy[i as usize]);
+                let expected = active.iter().any(inside);
+                assert_eq!(tree.find(triangle, inside).is_some(), expected, "{triangle:?} of {n}");
+            }
+            active.iter().for_each(|&i| tree.set(i, false));
+            assert_eq!(tree.find([[-99., -99.], [99., -99.], [0., 99.]], |_| true), None);
+        }
+    }
 }

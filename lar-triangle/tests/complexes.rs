@@ -90,6 +90,13 @@ fn check_faces(complex: &ChainComplex) -> Triangulation {
     assert_eq!(all.face_offsets.last().map(|&n| n as usize), Some(all.triangles.len()));
     for f in (0u32..).map(FaceId).take(all.n_faces()) {
         assert_eq!(check_laws(loops.face(f), all.face_triangles(f)), Ok(()));
+        let mut smallest_first: Vec<Vec<u32>> = loops.face(f).map(<[u32]>::to_vec).collect();
+        for cycle in &mut smallest_first {
+            let least = (0..cycle.len()).min_by_key(|&i| cycle[i]).unwrap_or(0);
+            cycle.rotate_left(least);
+        }
+        smallest_first.sort_unstable();
+        assert_eq!(smallest_first, complex.face_loops(f.index()));
         let alone = triangulate_face(complex.points(), &loops.face(f).collect::<Vec<_>>());
         assert_eq!(alone.as_deref(), Ok(all.face_triangles(f)));
     }
