@@ -17,6 +17,15 @@ pub(crate) fn dot(a: Vec3, b: Vec3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+/// Point `i` in space: missing coordinates are 0, those after the third are left out.
+pub(crate) fn xyz(points: &Points, i: usize) -> Vec3 {
+    let mut xyz = [0.; 3];
+    for (to, &from) in xyz.iter_mut().zip(points.point(i)) {
+        *to = from;
+    }
+    xyz
+}
+
 /// Signed area of a loop of plane points, positive when counter-clockwise; relative to its first vertex.
 pub(crate) fn loop_area_2d(points: &Points, cycle: &[u32]) -> f64 {
     let Some(&first) = cycle.first() else { return 0. };
@@ -34,8 +43,8 @@ pub(crate) fn loop_area_2d(points: &Points, cycle: &[u32]) -> f64 {
 /// counter-clockwise, its length the area of the loop's projection along it. Relative to the first vertex.
 pub(crate) fn loop_area_vector(points: &Points, cycle: &[u32]) -> Vec3 {
     let Some(&first) = cycle.first() else { return [0.; 3] };
-    let origin = points.xyz(first as usize);
-    let at = |v: u32| sub(points.xyz(v as usize), origin);
+    let origin = xyz(points, first as usize);
+    let at = |v: u32| sub(xyz(points, v as usize), origin);
     let mut doubled = [0.; 3];
     for w in cycle.windows(2) {
         let c = cross(at(w[0]), at(w[1]));
@@ -51,5 +60,5 @@ pub(crate) fn loop_area_vector(points: &Points, cycle: &[u32]) -> Vec3 {
 /// enclosed volume, whatever the apex.
 pub(crate) fn loop_cone_volume(points: &Points, cycle: &[u32], apex: Vec3) -> f64 {
     let Some(&first) = cycle.first() else { return 0. };
-    dot(loop_area_vector(points, cycle), sub(points.xyz(first as usize), apex)) / 3.
+    dot(loop_area_vector(points, cycle), sub(xyz(points, first as usize), apex)) / 3.
 }
