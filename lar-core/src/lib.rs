@@ -23,6 +23,7 @@ mod model_faces;
 mod obj;
 mod orient;
 mod points;
+mod relations;
 mod structure;
 mod surface;
 mod surface_check;

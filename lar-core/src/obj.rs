@@ -5,7 +5,7 @@ mod write;
 
 pub use read::{ObjGrouping, parse_obj, read_obj};
 
-use crate::{FaceId, FileError};
+use crate::{FaceId, FileError, VertexId};
 use std::path::PathBuf;
 
 /// Why an OBJ file cannot be read or written. Errors in the text name the file and the line, counted from 1.
@@ -112,6 +112,16 @@ pub enum ObjError {
     PointSize {
         /// Coordinates per point.
         dim: usize,
+    },
+    /// A coordinate to be written is infinite or not a number.
+    #[error("coordinate {axis} of vertex {vertex} is {value}")]
+    Coordinate {
+        /// The vertex.
+        vertex: VertexId,
+        /// Which coordinate, from 0.
+        axis: usize,
+        /// Its value.
+        value: f64,
     },
     /// A triangle names a vertex that does not exist.
     #[error("triangle {triangle} names vertex {vertex} of {n_vertices}")]

@@ -1,7 +1,7 @@
 //! Writing OBJ: coordinates in the shortest form that reads back as the same `f64`.
 
 use super::ObjError;
-use crate::{ChainComplex, FaceId, Points, TriangleMesh, atomic_write};
+use crate::{ChainComplex, FaceId, Points, TriangleMesh, VertexId, atomic_write};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -101,7 +101,13 @@ impl ChainComplex {
 
 fn check_points(points: &Points) -> Result<(), ObjError> {
     let dim = points.dim();
-    if dim == 2 || dim == 3 { Ok(()) } else { Err(ObjError::PointSize { dim }) }
+    if dim != 2 && dim != 3 {
+        return Err(ObjError::PointSize { dim });
+    }
+    points.non_finite().next().map_or(Ok(()), |(i, axis, value)| {
+        let vertex = VertexId(u32::try_from(i).unwrap_or(u32::MAX));
+        Err(ObjError::Coordinate { vertex, axis, value })
+    })
 }
 
 fn text(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> String {
@@ -170,6 +176,8 @@ mod tests {
         let mut mesh = icosphere(0);
         mesh.triangles[3][1] = 99;
         assert_eq!(mesh.to_obj().unwrap_err().to_string(), "triangle 3 names vertex 99 of 12");
+        mesh.points.coords_mut()[5] = f64::NAN;
+        assert_eq!(mesh.to_obj().unwrap_err().to_string(), "coordinate 2 of vertex v1 is NaN");
         let line = ChainComplex::from_model(&cuboid_grid(&[3])).unwrap();
         let message = "a complex of dimension 1 with 0 violations of its laws cannot be written as OBJ";
         assert_eq!(line.to_obj().unwrap_err().to_string(), message);
