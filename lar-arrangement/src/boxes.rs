@@ -48,8 +48,9 @@ impl BoxTree {
     /// O(n log n).
     pub(crate) fn new(boxes: &[Aabb]) -> Self {
         let all = boxes.iter().fold(Aabb::EMPTY, |a, b| a.joined(b));
-        let scale: [f64; 3] =
-            std::array::from_fn(|k| if all.hi[k] > all.lo[k] { 1_048_575.0 / (all.hi[k] - all.lo[k]) } else { 0.0 });
+        let scale: [f64; 3] = std::array::from_fn(|k| {
+            if all.hi[k] > all.lo[k] { 1_048_575.0 / (all.hi[k] - all.lo[k]) } else { 0.0 }
+        });
         let mut keyed: Vec<(u64, u32)> = boxes
             .iter()
             .zip(0..)
@@ -65,7 +66,8 @@ impl BoxTree {
         let mut levels = vec![items.iter().map(|&i| boxes[i as usize]).collect::<Vec<_>>()];
         while levels.last().is_some_and(|level| level.len() > 1) {
             let below = levels.last().expect("just seen");
-            levels.push(below.chunks(WIDTH).map(|c| c.iter().fold(Aabb::EMPTY, |a, b| a.joined(b))).collect());
+            levels
+                .push(below.chunks(WIDTH).map(|c| c.iter().fold(Aabb::EMPTY, |a, b| a.joined(b))).collect());
         }
         Self { items, levels }
     }

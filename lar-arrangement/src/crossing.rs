@@ -177,7 +177,10 @@ fn trace(
     };
     for (i, &edge) in edges.iter().enumerate() {
         let [p, q] = soup.directed(edge);
-        let next = edges.get(i + 1).filter(|&&e| soup.directed(e)[0] == q).map_or_else(|| sign_at(q), |_| signs[i + 1]);
+        let next = edges
+            .get(i + 1)
+            .filter(|&&e| soup.directed(e)[0] == q)
+            .map_or_else(|| sign_at(q), |_| signs[i + 1]);
         match (signs[i], next) {
             (Sign::Zero, Sign::Zero) => {
                 on_line.push((edge / 2, [p, q]));
@@ -217,7 +220,9 @@ fn push_corner(geometry: &Geometry, stops: &mut Vec<Stop>, p: u32, toggles: [boo
     let def = VertexDef::Grid(p);
     match stops.iter_mut().find(|s| s.vertex.def == def) {
         Some(stop) => (0..2).for_each(|k| stop.toggles[k] ^= toggles[k]),
-        None => stops.push(Stop { vertex: geometry.grid_vertex(p), edge: NO_EDGE, toggles, gap: Gap::Outside }),
+        None => {
+            stops.push(Stop { vertex: geometry.grid_vertex(p), edge: NO_EDGE, toggles, gap: Gap::Outside })
+        }
     }
 }
 
@@ -233,8 +238,8 @@ fn edge_over_gap(
     on_line.iter().find_map(|&(edge, ends)| {
         let [p, q] = ends.map(|p| geometry.grid_vertex(p));
         let (lo, hi) = if geometry.cmp_coordinate(&p, &q, axis).is_lt() { (p, q) } else { (q, p) };
-        let covers =
-            geometry.cmp_coordinate(&lo, before, axis).is_le() && geometry.cmp_coordinate(after, &hi, axis).is_le();
+        let covers = geometry.cmp_coordinate(&lo, before, axis).is_le()
+            && geometry.cmp_coordinate(after, &hi, axis).is_le();
         covers.then_some(edge)
     })
 }
@@ -322,7 +327,9 @@ fn record_point(
         match places[k] {
             Place::OnEdge(edge) => out.splits.push((edge, v)),
             // Inside this facet with nothing of the other one on either side along ℓ: they only touch.
-            Place::Inside if gaps.iter().all(|g| g[1 - k] == Gap::Outside) => out.touches.push((facets[k], v)),
+            Place::Inside if gaps.iter().all(|g| g[1 - k] == Gap::Outside) => {
+                out.touches.push((facets[k], v))
+            }
             _ => {}
         }
     }

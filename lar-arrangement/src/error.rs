@@ -36,4 +36,20 @@ pub enum ArrangementError {
         /// How many there are.
         n_vertices: usize,
     },
+    /// The thread pool could not be started.
+    #[error("{threads} threads cannot be started: {reason}")]
+    Threads {
+        /// How many were asked for.
+        threads: usize,
+        /// What the system said.
+        reason: String,
+    },
+    /// A post-condition that does not hold: a bug of this crate.
+    #[error("internal error after stage {stage}: {what}")]
+    PostCondition {
+        /// The stage.
+        stage: &'static str,
+        /// What does not hold.
+        what: String,
+    },
 }

@@ -201,8 +201,11 @@ impl<'a> Local<'a> {
             for &edge in &self.from.soup.facet_edges[facet as usize] {
                 self.from.walk(edge, |piece| {
                     let [a, b] = piece.ends.map(|v| self.local(v));
-                    let (ends, direction, sign) =
-                        if a < b { ([a, b], piece.direction, 1) } else { ([b, a], piece.direction.opposite(), -1) };
+                    let (ends, direction, sign) = if a < b {
+                        ([a, b], piece.direction, 1)
+                    } else {
+                        ([b, a], piece.direction.opposite(), -1)
+                    };
                     all.push((Piece { ends, direction, ..piece }, Use { member, sign }));
                 });
             }
@@ -271,7 +274,8 @@ impl<'a> Local<'a> {
             }
             return;
         }
-        let boxes: Vec<Aabb> = lines.iter().map(|l| Aabb::around(l.ends.map(|v| self.vertex(v).at))).collect();
+        let boxes: Vec<Aabb> =
+            lines.iter().map(|l| Aabb::around(l.ends.map(|v| self.vertex(v).at))).collect();
         for [i, j] in BoxTree::new(&boxes).pairs() {
             self.cross_pair(lines, i as usize, j as usize);
         }
@@ -353,8 +357,11 @@ impl<'a> Local<'a> {
             line.splits.dedup();
             let mut tail = line.ends[0];
             for head in line.splits.into_iter().chain([line.ends[1]]) {
-                let (ends, direction) =
-                    if tail < head { ([tail, head], line.direction) } else { ([head, tail], line.direction.opposite()) };
+                let (ends, direction) = if tail < head {
+                    ([tail, head], line.direction)
+                } else {
+                    ([head, tail], line.direction.opposite())
+                };
                 cuts.push(Piece { ends, direction, soft: false });
                 tail = head;
             }
@@ -384,7 +391,8 @@ impl<'a> Local<'a> {
             for &h in &around[face as usize] {
                 let beyond = subdivision.face(h ^ 1) as usize;
                 if counts[beyond].is_none() {
-                    let here = counts[face as usize].as_ref().expect("faces are counted before they are stacked");
+                    let here =
+                        counts[face as usize].as_ref().expect("faces are counted before they are stacked");
                     counts[beyond] = Some(self.across(here, h ^ 1));
                     stack.push(beyond as u32);
                 }

@@ -30,9 +30,8 @@ impl Grid {
                 origin[k] = lo[k] / 2.0 + hi[k] / 2.0;
             }
         }
-        let reach = |o: [f64; 3]| {
-            (0..3).map(|k| (hi[k] - o[k]).abs().max((lo[k] - o[k]).abs())).fold(0.0, f64::max)
-        };
+        let reach =
+            |o: [f64; 3]| (0..3).map(|k| (hi[k] - o[k]).abs().max((lo[k] - o[k]).abs())).fold(0.0, f64::max);
         // Moving the origin onto the grid may need one more bit: the exponent is taken with room for it.
         let exponent = exponent_above(reach(origin)) - BITS;
         let mut grid = Self { exponent, origin: [0.0; 3] };

@@ -191,4 +191,3 @@ fn nearer(a: &Hit, b: &Hit) -> Ordering {
         })
         .then_with(|| a.face.cmp(&b.face))
 }
-

@@ -78,7 +78,11 @@ impl Polygon<'_> {
         };
         let b = self.corners().max_by(|&p, &q| distance(p).total_cmp(&distance(q)))?;
         let area = |p: u32| {
-            Plane::through(self.at(a), self.at(b), self.at(p)).n.map(|x| (x as f64).powi(2)).iter().sum::<f64>()
+            Plane::through(self.at(a), self.at(b), self.at(p))
+                .n
+                .map(|x| (x as f64).powi(2))
+                .iter()
+                .sum::<f64>()
         };
         let c = self.corners().max_by(|&p, &q| area(p).total_cmp(&area(q)))?;
         (area(c) > 0.0).then_some([a, b, c])
@@ -107,9 +111,10 @@ impl Polygon<'_> {
         let distinct = seen.windows(2).all(|w| w[0] != w[1]);
         let edges: Vec<[u32; 2]> = self.edges().collect();
         distinct
-            && edges.iter().enumerate().all(|(i, &e)| {
-                edges[i + 1..].iter().all(|&f| !self.edges_meet(e, f, axis))
-            })
+            && edges
+                .iter()
+                .enumerate()
+                .all(|(i, &e)| edges[i + 1..].iter().all(|&f| !self.edges_meet(e, f, axis)))
     }
 
     /// Whether two edges share a point other than a common end.
@@ -123,10 +128,12 @@ impl Polygon<'_> {
         if shared == 1 {
             let (near, far) = if a == c || a == d { (a, b) } else { (b, a) };
             let other = if near == c { d } else { c };
-            return turn(near, far, other) == Sign::Zero && (within(near, far, other) || within(near, other, far));
+            return turn(near, far, other) == Sign::Zero
+                && (within(near, far, other) || within(near, other, far));
         }
         let signs = [turn(a, b, c), turn(a, b, d), turn(c, d, a), turn(c, d, b)];
-        let crossing = signs[0].times(signs[1]) != Sign::Positive && signs[2].times(signs[3]) != Sign::Positive;
+        let crossing =
+            signs[0].times(signs[1]) != Sign::Positive && signs[2].times(signs[3]) != Sign::Positive;
         crossing
             && (signs.iter().all(|&s| s != Sign::Zero)
                 || [(a, b, c), (a, b, d), (c, d, a), (c, d, b)]
@@ -169,9 +176,13 @@ impl Polygon<'_> {
             .collect();
         let edges: Vec<[usize; 2]> = self.edges().map(|[p, q]| [local(p), local(q)]).collect();
         let mut conflict = false;
-        let cdt = ConstrainedDelaunayTriangulation::<Point2<f64>>::try_bulk_load_cdt(vertices, edges.clone(), |_| {
-            conflict = true;
-        })
+        let cdt = ConstrainedDelaunayTriangulation::<Point2<f64>>::try_bulk_load_cdt(
+            vertices,
+            edges.clone(),
+            |_| {
+                conflict = true;
+            },
+        )
         .ok()?;
         if conflict || cdt.num_vertices() != corners.len() || cdt.num_constraints() != edges.len() {
             return None;

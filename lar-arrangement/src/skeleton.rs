@@ -60,7 +60,12 @@ impl Skeleton {
     }
 
     /// Adds the edges of a part; returns the half-edge that each of the part's half-edges becomes.
-    fn push_edges(&mut self, part: &Fragments, compact: &[u32], ids: &mut FxHashMap<[u32; 2], u32>) -> Vec<u32> {
+    fn push_edges(
+        &mut self,
+        part: &Fragments,
+        compact: &[u32],
+        ids: &mut FxHashMap<[u32; 2], u32>,
+    ) -> Vec<u32> {
         let mut half_edges = Vec::with_capacity(2 * part.pieces.len());
         for piece in &part.pieces {
             let [a, b] = piece.ends.map(|v| compact[v as usize]);

@@ -99,7 +99,10 @@ fn fitted_grid(surfaces: &[Surface]) -> Result<Grid, ArrangementError> {
     let (mut lo, mut hi) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for surface in surfaces {
         if surface.points.dim() != 3 {
-            return Err(ArrangementError::Dimension { solid: surface.name.clone(), dim: surface.points.dim() });
+            return Err(ArrangementError::Dimension {
+                solid: surface.name.clone(),
+                dim: surface.points.dim(),
+            });
         }
         for (v, p) in surface.points.iter().enumerate() {
             for k in 0..3 {
@@ -115,7 +118,8 @@ fn fitted_grid(surfaces: &[Surface]) -> Result<Grid, ArrangementError> {
             }
         }
         for face in 0..surface.n_faces() {
-            if let Some(&vertex) = surface.face(face).flatten().find(|&&v| v as usize >= surface.points.len()) {
+            if let Some(&vertex) = surface.face(face).flatten().find(|&&v| v as usize >= surface.points.len())
+            {
                 return Err(ArrangementError::NoSuchVertex {
                     solid: surface.name.clone(),
                     face: (face as u32).into(),
@@ -161,10 +165,8 @@ struct Builder {
 
 impl Builder {
     fn push_face(&mut self, solid: usize, surface: &Surface, face: usize, point_of: &[u32]) {
-        let mut loops: Vec<Vec<u32>> = surface
-            .face(face)
-            .map(|l| without_repetition(l.iter().map(|&v| point_of[v as usize])))
-            .collect();
+        let mut loops: Vec<Vec<u32>> =
+            surface.face(face).map(|l| without_repetition(l.iter().map(|&v| point_of[v as usize]))).collect();
         loops.retain(|l| l.len() >= 3);
         let Some(key) = canonical(&loops) else {
             self.soup.degenerate += 1;
@@ -193,7 +195,11 @@ impl Builder {
     }
 
     fn push_parent(&mut self, polygon: u32, solid: usize, face: usize, sign: i8) {
-        self.soup.polygon_parents[polygon as usize].push(Parent { solid: solid as u32, face: face as u32, sign });
+        self.soup.polygon_parents[polygon as usize].push(Parent {
+            solid: solid as u32,
+            face: face as u32,
+            sign,
+        });
     }
 
     /// Adds the facets of a polygon; false when it has no inside.
@@ -214,9 +220,17 @@ impl Builder {
         }
     }
 
-    fn push_triangles(&mut self, loops: &[Vec<u32>], triangles: &[[u32; 3]], polygon: u32, flat: bool) -> bool {
-        let mut sides: Vec<[u32; 2]> =
-            loops.iter().flat_map(|l| (0..l.len()).map(|i| ascending([l[i], l[(i + 1) % l.len()]]))).collect();
+    fn push_triangles(
+        &mut self,
+        loops: &[Vec<u32>],
+        triangles: &[[u32; 3]],
+        polygon: u32,
+        flat: bool,
+    ) -> bool {
+        let mut sides: Vec<[u32; 2]> = loops
+            .iter()
+            .flat_map(|l| (0..l.len()).map(|i| ascending([l[i], l[(i + 1) % l.len()]])))
+            .collect();
         sides.sort_unstable();
         let before = self.soup.n_facets();
         for &[a, b, c] in triangles {

@@ -66,7 +66,13 @@ impl Subdivision {
 
     /// Every cycle bounds a face from outside, except one for each component, which is a hole of the face that the
     /// component lies in: the cycle with the wedge that opens towards −u at the component's first vertex.
-    fn number_faces(&mut self, firsts: &[u32], star: &Star, component_of: &[u32], embedding: &impl Embedding) {
+    fn number_faces(
+        &mut self,
+        firsts: &[u32],
+        star: &Star,
+        component_of: &[u32],
+        embedding: &impl Embedding,
+    ) {
         let outer: Vec<u32> = firsts
             .iter()
             .map(|&v| self.cycle_of[*star.leaving(v).last().expect("components have edges") as usize])

@@ -9,7 +9,7 @@ use std::cmp::Ordering;
 
 /// An integer of at most `64 · N` bits and a sign.
 #[derive(Clone, Copy)]
-pub struct Int<const N: usize> {
+pub(crate) struct Int<const N: usize> {
     negative: bool,
     len: usize,
     limbs: [u64; N],
@@ -17,14 +17,14 @@ pub struct Int<const N: usize> {
 
 impl<const N: usize> Int<N> {
     /// Zero.
-    pub const ZERO: Self = Self { negative: false, len: 0, limbs: [0; N] };
+    pub(crate) const ZERO: Self = Self { negative: false, len: 0, limbs: [0; N] };
 
     /// The same value in another width.
     ///
     /// # Panics
     /// When it does not fit.
     #[must_use]
-    pub fn resize<const M: usize>(&self) -> Int<M> {
+    pub(crate) fn resize<const M: usize>(&self) -> Int<M> {
         let mut wide = Int::<M> { negative: self.negative, len: self.len, limbs: [0; M] };
         wide.limbs[..self.len].copy_from_slice(&self.limbs[..self.len]);
         wide
@@ -32,7 +32,7 @@ impl<const N: usize> Int<N> {
 
     /// The sign.
     #[must_use]
-    pub fn sign(&self) -> Sign {
+    pub(crate) fn sign(&self) -> Sign {
         match (self.len, self.negative) {
             (0, _) => Sign::Zero,
             (_, true) => Sign::Negative,
@@ -42,7 +42,7 @@ impl<const N: usize> Int<N> {
 
     /// Number of bits of the magnitude.
     #[must_use]
-    pub fn bits(&self) -> u32 {
+    pub(crate) fn bits(&self) -> u32 {
         match self.len {
             0 => 0,
             n => 64 * n as u32 - self.limbs[n - 1].leading_zeros(),
@@ -56,7 +56,7 @@ impl<const N: usize> Int<N> {
 
     /// `self · 2^shift`.
     #[must_use]
-    pub fn shifted(&self, shift: u32) -> Self {
+    pub(crate) fn shifted(&self, shift: u32) -> Self {
         let (words, bits) = ((shift / 64) as usize, shift % 64);
         let mut out = Self { negative: self.negative, ..Self::ZERO };
         for (i, &limb) in self.magnitude().iter().enumerate() {
@@ -247,12 +247,14 @@ mod tests {
     use proptest::prelude::*;
 
     fn to_big<const N: usize>(x: &Int<N>) -> IBig {
-        let magnitude = x.magnitude().iter().rev().fold(IBig::ZERO, |acc, &limb| (acc << 64) + IBig::from(limb));
+        let magnitude =
+            x.magnitude().iter().rev().fold(IBig::ZERO, |acc, &limb| (acc << 64) + IBig::from(limb));
         if x.sign() == Sign::Negative { -magnitude } else { magnitude }
     }
 
     fn from_digits(digits: &[u64], negative: bool) -> Int<8> {
-        let magnitude = digits.iter().fold(Int::ZERO, |acc: Int<8>, &d| acc.shifted(64) + Int::from(i128::from(d)));
+        let magnitude =
+            digits.iter().fold(Int::ZERO, |acc: Int<8>, &d| acc.shifted(64) + Int::from(i128::from(d)));
         if negative { -magnitude } else { magnitude }
     }
 

@@ -23,15 +23,14 @@ mod int;
 mod point;
 mod predicates;
 
-pub use int::Int;
-pub(crate) use point::{HPoint, Plane};
+pub(crate) use int::Int;
+pub(crate) use point::Plane;
 pub(crate) use predicates::{Along, Direction, Geometry, Midpoint, Support, Vertex, VertexDef};
-pub use predicates::Counters;
 
 /// The sign of an exact quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(i8)]
-pub enum Sign {
+pub(crate) enum Sign {
     /// Below zero.
     Negative = -1,
     /// Exactly zero.
@@ -43,7 +42,7 @@ pub enum Sign {
 impl Sign {
     /// The sign of the product.
     #[must_use]
-    pub fn times(self, other: Sign) -> Sign {
+    pub(crate) fn times(self, other: Sign) -> Sign {
         Sign::from(self as i8 * other as i8)
     }
 }

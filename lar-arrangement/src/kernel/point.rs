@@ -59,9 +59,8 @@ impl Plane {
     where
         Int<M>: Copy,
     {
-        (0..3).fold(-(Int::from(self.d) * p.w.resize()), |sum, k| {
-            sum + Int::from(self.n[k]) * p.x[k].resize()
-        })
+        (0..3)
+            .fold(-(Int::from(self.d) * p.w.resize()), |sum, k| sum + Int::from(self.n[k]) * p.x[k].resize())
     }
 
     /// The components of n that are not zero, exactly.

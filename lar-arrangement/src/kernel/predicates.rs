@@ -7,14 +7,14 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// How often the `f64` filters could not decide and exact integers did.
 #[derive(Debug, Default)]
-pub struct Counters {
+pub(crate) struct Counters {
     exact: AtomicU64,
 }
 
 impl Counters {
     /// Number of predicates that were decided by exact integers.
     #[must_use]
-    pub fn exact(&self) -> u64 {
+    pub(crate) fn exact(&self) -> u64 {
         self.exact.load(Relaxed)
     }
 
@@ -169,7 +169,8 @@ impl Geometry {
             }
             VertexDef::Facets(facets) => {
                 let [a, b, c] = facets.map(|f| self.plane(Support::Facet(f)));
-                HPoint::on_planes([&a, &b, &c]).expect("vertices on three planes are made where the planes cross")
+                HPoint::on_planes([&a, &b, &c])
+                    .expect("vertices on three planes are made where the planes cross")
             }
         }
     }
@@ -239,10 +240,11 @@ impl Geometry {
 
     /// Whether two vertices are the same point.
     pub(crate) fn coincide(&self, a: &Vertex, b: &Vertex) -> bool {
-        a.at == b.at && (a.def == b.def || {
-            self.counters.count();
-            self.exact_point(&a.def).equals(&self.exact_point(&b.def))
-        })
+        a.at == b.at
+            && (a.def == b.def || {
+                self.counters.count();
+                self.exact_point(&a.def).equals(&self.exact_point(&b.def))
+            })
     }
 
     /// A direction with its approximation.
@@ -255,8 +257,7 @@ impl Geometry {
             Along::Facets([f, g]) => {
                 let (m, n) = (self.normal(f), self.normal(g));
                 let largest = |v: [f64; 3]| v[0].abs().max(v[1].abs()).max(v[2].abs());
-                let cross =
-                    [m[1] * n[2] - m[2] * n[1], m[2] * n[0] - m[0] * n[2], m[0] * n[1] - m[1] * n[0]];
+                let cross = [m[1] * n[2] - m[2] * n[1], m[2] * n[0] - m[0] * n[2], m[0] * n[1] - m[1] * n[0]];
                 // Each of two products carries three roundings of 2^-53, the difference one more.
                 (cross, largest(m) * largest(n) * 2f64.powi(-50))
             }
@@ -315,11 +316,7 @@ impl Geometry {
     /// Sign of det(n1, n2, d): positive when turning by less than half a turn about d leads from n1 to n2.
     pub(crate) fn turn_about(&self, f: u32, g: u32, d: &Direction) -> Sign {
         let (m, n) = (self.normal(f), self.normal(g));
-        let products = [
-            [m[1] * n[2], m[2] * n[1]],
-            [m[2] * n[0], m[0] * n[2]],
-            [m[0] * n[1], m[1] * n[0]],
-        ];
+        let products = [[m[1] * n[2], m[2] * n[1]], [m[2] * n[0], m[0] * n[2]], [m[0] * n[1], m[1] * n[0]]];
         let mut det = 0.0;
         let mut magnitude = 0.0;
         let mut reach = 0.0;
@@ -334,8 +331,10 @@ impl Geometry {
         }
         self.counters.count();
         let exact = self.exact_direction(d).map(|x| x.resize::<6>());
-        let normals =
-            self.plane(Support::Facet(f)).direction_with(&self.plane(Support::Facet(g))).map(|x| x.resize::<6>());
+        let normals = self
+            .plane(Support::Facet(f))
+            .direction_with(&self.plane(Support::Facet(g)))
+            .map(|x| x.resize::<6>());
         (0..3).fold(Int::ZERO, |sum, k| sum + normals[k] * exact[k]).sign()
     }
 

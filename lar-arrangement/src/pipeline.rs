@@ -1,0 +1,401 @@
+//! The driver: surfaces in, arrangement out, stage by stage.
+
+use crate::arrangement::{Arrangement, SolidInfo};
+use crate::boxes::{Aabb, BoxTree};
+use crate::check;
+use crate::coplanar;
+use crate::crossing::{self, Contacts, Scratch};
+use crate::dissolve::{self, Dissolved};
+use crate::error::ArrangementError;
+use crate::fragment::{Fragmenter, Fragments};
+use crate::interner::Interner;
+use crate::nest::Nesting;
+use crate::parallel;
+use crate::skeleton::Skeleton;
+use crate::soup::{Parent, Soup};
+use crate::split::Cuts;
+use crate::stats::{Stats, Watch};
+use crate::union_find::UnionFind;
+use crate::winding::{Jump, Windings};
+use crate::wrap;
+use lar_core::{Cells, ChainComplex, Points, Surface};
+use std::num::NonZeroUsize;
+
+/// Polygons whose corners lie within this many grid steps of a plane are meant to be planar: a corner that is
+/// rounded moves by less than one step, and the plane through three rounded corners, taken far apart, passes the
+/// others within a few.
+const FLATNESS: f64 = 16.0;
+
+/// Pairs of facets a chunk of work.
+const PAIRS_A_CHUNK: usize = 2048;
+/// Groups of facets a chunk of work.
+const GROUPS_A_CHUNK: usize = 256;
+
+/// Whether the post-conditions of every stage are tested as it ends.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Checks {
+    /// No tests; the algorithms do not need them.
+    #[default]
+    Off,
+    /// All of them; a failure is an error that names the stage.
+    EveryStage,
+}
+
+/// Options for an arrangement.
+///
+/// ```
+/// use lar_arrangement::Arranger;
+/// use lar_core::{cuboid_grid, t, Struct};
+/// let cube = cuboid_grid(&[1, 1, 1]);
+/// let scene = Struct::new("two cubes").with(cube.clone()).with(t(&[0.5, 0.5, 0.5])).with(cube);
+/// let surfaces: Vec<_> = scene.eval_struct()?.iter().map(|m| m.to_surface()).collect::<Result<_, _>>()?;
+/// let arrangement = Arranger::new().arrange(&surfaces)?;
+/// assert_eq!((arrangement.n_vertices(), arrangement.n_edges()), (22, 36));
+/// assert_eq!((arrangement.n_faces(), arrangement.n_cells()), (18, 4));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Arranger {
+    threads: Option<NonZeroUsize>,
+    checks: Checks,
+}
+
+/// The arrangement of some surfaces with the default options.
+///
+/// Input surfaces may cross, touch, overlap, repeat, be open, cross themselves. The result is exact for the input
+/// snapped to a grid of 2^-40 of its half-extent, and the same for any number of threads.
+///
+/// # Errors
+/// Points that are not three-dimensional or not finite, faces that name vertices that do not exist.
+#[doc(alias = "spatial_arrangement")]
+#[doc(alias = "arrangement3D")]
+pub fn arrange(surfaces: &[Surface]) -> Result<Arrangement, ArrangementError> {
+    Arranger::new().arrange(surfaces)
+}
+
+impl Arranger {
+    /// The default options: all processors, no checks.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Limits the number of threads. Without the feature `rayon` there is one.
+    #[must_use]
+    pub fn threads(mut self, threads: NonZeroUsize) -> Self {
+        self.threads = Some(threads);
+        self
+    }
+
+    /// Tests the post-conditions of the stages.
+    #[must_use]
+    pub fn checks(mut self, checks: Checks) -> Self {
+        self.checks = checks;
+        self
+    }
+
+    /// Computes the arrangement. O((n + k + m) log) time and O(n + k + m) memory for n facets, k pairs of facets
+    /// that meet and m cells out.
+    ///
+    /// # Errors
+    /// Points that are not three-dimensional or not finite, faces that name vertices that do not exist; with
+    /// checks, a post-condition that does not hold; when the threads cannot be started.
+    pub fn arrange(&self, surfaces: &[Surface]) -> Result<Arrangement, ArrangementError> {
+        #[cfg(feature = "rayon")]
+        if let Some(threads) = self.threads {
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads.get())
+                .build()
+                .map_err(|e| ArrangementError::Threads { threads: threads.get(), reason: e.to_string() })?;
+            return pool.install(|| self.run(surfaces));
+        }
+        self.run(surfaces)
+    }
+
+    fn run(&self, surfaces: &[Surface]) -> Result<Arrangement, ArrangementError> {
+        let mut stats = Stats::default();
+        let mut watch = Watch::start();
+        let soup = Soup::new(surfaces, FLATNESS)?;
+        watch.lap(&mut stats, "soup");
+        let pairs = BoxTree::new(&facet_boxes(&soup)).pairs();
+        watch.lap(&mut stats, "pairs");
+        let mut contacts = contacts(&soup, &pairs);
+        stats.pairs_tested = pairs.len() as u64;
+        stats.pairs_crossing = contacts.crossing_pairs;
+        let groups = groups(&soup, &mut contacts);
+        let mut interner = Interner::new(&soup.geometry);
+        let cuts = Cuts::new(&soup, contacts, &mut interner);
+        watch.lap(&mut stats, "contacts");
+        self.check(|| check::cuts(&soup, &cuts, &interner.vertices))?;
+        stats.coplanar_groups = groups.iter().filter(|g| g.len() > 1).count() as u64;
+        let fragments = fragments(&soup, &cuts, &interner, &groups);
+        watch.lap(&mut stats, "fragmentation");
+        let skeleton = Skeleton::new(fragments, interner, &soup.geometry);
+        watch.lap(&mut stats, "congruence");
+        self.check(|| check::skeleton(&skeleton, &soup.geometry))?;
+        let rings = wrap::rings(&skeleton, &soup.geometry);
+        let (shell_of_side, n_shells) = wrap::shells(&rings, skeleton.n_faces());
+        watch.lap(&mut stats, "gift wrapping");
+        self.check(|| check::shells(&skeleton, &shell_of_side))?;
+        let (component_of_face, n_components) = wrap::components(&rings, skeleton.n_faces());
+        let nesting = Nesting {
+            skeleton: &skeleton,
+            geometry: &soup.geometry,
+            rings: &rings,
+            shell_of_side: &shell_of_side,
+            n_shells,
+            component_of_face: &component_of_face,
+            n_components,
+        };
+        let (cell_of_shell, n_cells) = nesting.cells();
+        watch.lap(&mut stats, "nesting");
+        let dissolved = dissolve::dissolve(&skeleton, &rings, &soup);
+        let shells = Shells { of_side: &shell_of_side, n: n_shells, cell_of: &cell_of_shell, n_cells };
+        let out = assemble(surfaces, soup, &skeleton, &rings, dissolved, &shells, (stats, watch));
+        self.check(|| check::arrangement(&out))?;
+        Ok(out)
+    }
+
+    fn check(&self, test: impl FnOnce() -> Result<(), check::Failure>) -> Result<(), ArrangementError> {
+        match self.checks {
+            Checks::Off => Ok(()),
+            Checks::EveryStage => {
+                test().map_err(|f| ArrangementError::PostCondition { stage: f.stage, what: f.what })
+            }
+        }
+    }
+}
+
+fn facet_boxes(soup: &Soup) -> Vec<Aabb> {
+    soup.facet_edges
+        .iter()
+        .map(|edges| {
+            Aabb::around(
+                edges.iter().map(|&e| soup.geometry.points[soup.directed(e)[0] as usize].map(|x| x as f64)),
+            )
+        })
+        .collect()
+}
+
+fn contacts(soup: &Soup, pairs: &[[u32; 2]]) -> Contacts {
+    let (n_chunks, range) = parallel::chunks(pairs.len(), PAIRS_A_CHUNK);
+    let parts = parallel::map(n_chunks, |chunk| {
+        let (mut out, mut scratch) = (Contacts::default(), Scratch::default());
+        for &[f, g] in &pairs[range(chunk)] {
+            crossing::meet(soup, f, g, &mut scratch, &mut out);
+        }
+        out
+    });
+    let n_points = soup.geometry.points.len() as u32;
+    parts.into_iter().fold(Contacts::default(), |mut all, part| {
+        all.append(part, n_points);
+        all
+    })
+}
+
+/// Facets by groups that overlap in one plane, in the order of their first facets.
+fn groups(soup: &Soup, contacts: &mut Contacts) -> Vec<Vec<u32>> {
+    let mut sets = UnionFind::new(soup.n_facets());
+    for pair in std::mem::take(&mut contacts.coplanar) {
+        if coplanar::meet(soup, pair, contacts) {
+            sets.union(pair[0], pair[1]);
+        }
+    }
+    let (labels, n) = sets.labels();
+    let mut groups = vec![Vec::new(); n as usize];
+    for (&label, facet) in labels.iter().zip(0..) {
+        groups[label as usize].push(facet);
+    }
+    groups
+}
+
+fn fragments(soup: &Soup, cuts: &Cuts, interner: &Interner, groups: &[Vec<u32>]) -> Vec<Fragments> {
+    let fragmenter = Fragmenter { soup, cuts, vertices: &interner.vertices };
+    let (n_chunks, range) = parallel::chunks(groups.len(), GROUPS_A_CHUNK);
+    parallel::map(n_chunks, |chunk| {
+        let mut out = Fragments::default();
+        for group in &groups[range(chunk)] {
+            fragmenter.fragment(group, &mut out);
+        }
+        out
+    })
+}
+
+struct Shells<'a> {
+    of_side: &'a [u32],
+    n: u32,
+    cell_of: &'a [u32],
+    n_cells: u32,
+}
+
+/// The final numbering, positions and matrices.
+fn assemble(
+    surfaces: &[Surface],
+    mut soup: Soup,
+    skeleton: &Skeleton,
+    rings: &Cells,
+    dissolved: Dissolved,
+    shells: &Shells,
+    (mut stats, mut watch): (Stats, Watch),
+) -> Arrangement {
+    let shells_of_face: Vec<[u32; 2]> = dissolved
+        .old_face
+        .iter()
+        .map(|&f| [0, 1].map(|side| shells.of_side[(2 * f + side) as usize]))
+        .collect();
+    let cells_of_face: Vec<[u32; 2]> =
+        shells_of_face.iter().map(|s| s.map(|shell| shells.cell_of[shell as usize])).collect();
+    let (parents, parent_offsets) = parents(&soup, skeleton, &dissolved);
+    let coefficients = std::mem::take(&mut soup.coefficients);
+    let jumps = |face: usize| {
+        jumps(&parents[parent_offsets[face] as usize..parent_offsets[face + 1] as usize], &coefficients)
+    };
+    let windings = Windings::new(shells.n_cells as usize, surfaces.len(), &cells_of_face, jumps);
+    watch.lap(&mut stats, "membership");
+    let vertices: Vec<_> = dissolved.vertices.iter().map(|&v| skeleton.vertices[v as usize]).collect();
+    let complex = ChainComplex::new(
+        positions(&soup, &vertices),
+        vec![
+            boundary_1(vertices.len(), &dissolved.edges),
+            boundary_2(dissolved.edges.len(), &dissolved),
+            boundary_3(&cells_of_face, shells.n_cells as usize),
+        ],
+    );
+    let rings = new_rings(rings, &dissolved);
+    watch.lap(&mut stats, "complex");
+    stats.grid_step = soup.grid.step();
+    stats.facets = soup.n_facets() as u64;
+    stats.triangulated_polygons = u64::from(soup.triangulated);
+    stats.degenerate_faces = u64::from(soup.degenerate);
+    stats.exact_fallbacks = soup.geometry.counters.exact();
+    Arrangement {
+        complex,
+        loops: dissolved.loops,
+        face_loops: dissolved.face_loops,
+        rings,
+        cells_of_face,
+        shells_of_face,
+        n_shells: shells.n,
+        parents,
+        parent_offsets,
+        windings,
+        solids: surfaces
+            .iter()
+            .zip(coefficients)
+            .map(|(s, coefficients)| SolidInfo { name: s.name.clone(), coefficients })
+            .collect(),
+        vertices,
+        geometry: soup.geometry,
+        stats,
+    }
+}
+
+/// Parents of each new face, in terms of input faces.
+fn parents(soup: &Soup, skeleton: &Skeleton, dissolved: &Dissolved) -> (Vec<Parent>, Vec<u32>) {
+    let (mut parents, mut offsets) = (Vec::new(), vec![0]);
+    for &face in &dissolved.old_face {
+        for facet in skeleton.face_parents(face) {
+            let turn = if facet.same_way { 1 } else { -1 };
+            parents.extend(soup.parents(facet.facet).iter().map(|p| Parent { sign: p.sign * turn, ..*p }));
+        }
+        offsets.push(parents.len() as u32);
+    }
+    (parents, offsets)
+}
+
+fn jumps(parents: &[Parent], coefficients: &[Vec<i8>]) -> Vec<Jump> {
+    let mut out: Vec<Jump> = Vec::new();
+    for parent in parents {
+        let coefficient = i32::from(coefficients[parent.solid as usize][parent.face as usize]);
+        let (signed, odd) = (coefficient * i32::from(parent.sign), coefficient % 2 != 0);
+        match out.binary_search_by_key(&parent.solid, |j| j.solid) {
+            Ok(at) => {
+                out[at].signed += signed;
+                out[at].odd ^= odd;
+            }
+            Err(at) => out.insert(at, Jump { solid: parent.solid, signed, odd }),
+        }
+    }
+    out
+}
+
+fn positions(soup: &Soup, vertices: &[crate::kernel::Vertex]) -> Points {
+    let offset = soup.grid.offset();
+    let mut coords = Vec::with_capacity(3 * vertices.len());
+    for v in vertices {
+        let steps =
+            if offset == [0; 3] { v.at } else { soup.geometry.exact_point(&v.def).rounded_after(offset) };
+        coords.extend(steps.map(|x| soup.grid.length(x)));
+    }
+    Points::from_columns(3, coords)
+}
+
+fn boundary_1(n_vertices: usize, edges: &[[u32; 2]]) -> lar_core::Operator {
+    let signs = edges.iter().flat_map(|_| [-1, 1]).collect();
+    ChainComplex::operator_from_columns(n_vertices, Cells::uniform(2, edges.as_flattened().to_vec()), signs)
+}
+
+fn boundary_2(n_edges: usize, dissolved: &Dissolved) -> lar_core::Operator {
+    let mut columns = Cells::with_capacity(dissolved.old_face.len(), dissolved.loops.indices().len());
+    let mut signs = Vec::with_capacity(dissolved.loops.indices().len());
+    let (mut column, mut edges): (Vec<(u32, i8)>, Vec<u32>) = (Vec::new(), Vec::new());
+    for range in dissolved.face_loops.windows(2) {
+        column.clear();
+        for l in range[0]..range[1] {
+            column.extend(
+                dissolved.loops[l as usize].iter().map(|&h| (h / 2, if h % 2 == 0 { 1 } else { -1 })),
+            );
+        }
+        column.sort_unstable();
+        edges.clear();
+        for same in column.chunk_by(|a, b| a.0 == b.0) {
+            // An edge that stands in the loops in both directions is no boundary.
+            if let [(edge, sign)] = *same {
+                edges.push(edge);
+                signs.push(sign);
+            }
+        }
+        columns.push(&edges);
+    }
+    ChainComplex::operator_from_columns(n_edges, columns, signs)
+}
+
+fn boundary_3(cells_of_face: &[[u32; 2]], n_cells: usize) -> lar_core::Operator {
+    let mut offsets = vec![0u32; n_cells + 1];
+    let proper = || cells_of_face.iter().zip(0u32..).filter(|([front, back], _)| front != back);
+    for (cells, _) in proper() {
+        cells.iter().for_each(|&c| offsets[c as usize + 1] += 1);
+    }
+    for c in 0..n_cells {
+        offsets[c + 1] += offsets[c];
+    }
+    let mut fill = offsets.clone();
+    let mut faces = vec![0; offsets[n_cells] as usize];
+    let mut signs = vec![0i8; faces.len()];
+    for (cells, face) in proper() {
+        for (&cell, sign) in cells.iter().zip([-1, 1]) {
+            let at = fill[cell as usize] as usize;
+            (faces[at], signs[at]) = (face, sign);
+            fill[cell as usize] += 1;
+        }
+    }
+    ChainComplex::operator_from_columns(cells_of_face.len(), Cells::from_parts(offsets, faces), signs)
+}
+
+/// The rings of the remaining edges in terms of the new faces.
+fn new_rings(rings: &Cells, dissolved: &Dissolved) -> Cells {
+    let mut out = Cells::with_capacity(dissolved.edges.len(), rings.indices().len());
+    let mut ring = Vec::new();
+    for &h in &dissolved.old_half_edge {
+        ring.clear();
+        let against = h % 2;
+        let entry = |&old: &u32| 2 * dissolved.new_face[(old / 2) as usize] + (old % 2 ^ against);
+        if against == 0 {
+            ring.extend(rings[(h / 2) as usize].iter().map(entry));
+        } else {
+            ring.extend(rings[(h / 2) as usize].iter().rev().map(entry));
+        }
+        out.push(&ring);
+    }
+    out
+}

@@ -1,0 +1,164 @@
+//! Stage 6a: the winding number of every input solid in every 3-cell, by walking the dual graph from the exterior.
+//!
+//! Crossing a face from the side its normal points to changes the winding number of solid s by the sum of the
+//! signed coefficients of those faces of s that it is a piece of. A solid's winding numbers are consistent over
+//! all faces if and only if its boundary is closed; otherwise its parity may still be (closed but not oriented
+//! consistently); otherwise the surface is open and bounds nothing.
+
+/// What a surface bounds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Closure {
+    /// Closed and oriented: every cell has a winding number.
+    Closed,
+    /// Closed, but not oriented consistently: every cell has a parity.
+    Unoriented,
+    /// Open: it divides space but bounds no solid.
+    Open,
+}
+
+/// Winding numbers of all solids in all cells, sparse by cells.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Windings {
+    offsets: Vec<u32>,
+    /// Solid and winding number (parity for unoriented solids), where it is not zero; sorted by solid.
+    entries: Vec<(u32, i32)>,
+    pub closure: Vec<Closure>,
+}
+
+/// The change of winding numbers across a face, from front to back: solid, signed sum, sum modulo 2.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Jump {
+    pub solid: u32,
+    pub signed: i32,
+    pub odd: bool,
+}
+
+impl Windings {
+    /// `cells_of_face` holds the cells in front and behind of each face, `jumps(f)` the face's jumps, sorted by
+    /// solid. O(faces · parents + entries).
+    pub(crate) fn new(
+        n_cells: usize,
+        n_solids: usize,
+        cells_of_face: &[[u32; 2]],
+        jumps: impl Fn(usize) -> Vec<Jump>,
+    ) -> Self {
+        let jumps: Vec<Vec<Jump>> = (0..cells_of_face.len()).map(jumps).collect();
+        let tree = spanning_tree(n_cells, cells_of_face);
+        let mut closure = vec![Closure::Closed; n_solids];
+        let mut windings = propagate(n_cells, &tree, &jumps, |j| j.signed);
+        for (cells, jumps) in cells_of_face.iter().zip(&jumps) {
+            check_face(&windings, *cells, jumps, |j| j.signed, |a| a, &mut closure, Closure::Unoriented);
+        }
+        if closure.contains(&Closure::Unoriented) {
+            let odd = |j: &Jump| i32::from(j.odd && closure[j.solid as usize] == Closure::Unoriented);
+            let parity = propagate(n_cells, &tree, &jumps, odd);
+            let mut open = closure.clone();
+            for (cells, jumps) in cells_of_face.iter().zip(&jumps) {
+                check_face(&parity, *cells, jumps, odd, |a| a.rem_euclid(2), &mut open, Closure::Open);
+            }
+            for (cell, row) in windings.iter_mut().enumerate() {
+                row.retain(|e| closure[e.0 as usize] == Closure::Closed);
+                let unoriented = parity[cell].iter().filter(|e| open[e.0 as usize] == Closure::Unoriented);
+                row.extend(unoriented.map(|e| (e.0, e.1.rem_euclid(2))).filter(|e| e.1 != 0));
+                row.sort_unstable();
+            }
+            closure = open;
+        }
+        let mut offsets = vec![0];
+        let mut entries = Vec::new();
+        for row in windings {
+            entries.extend(row);
+            offsets.push(entries.len() as u32);
+        }
+        Self { offsets, entries, closure }
+    }
+
+    /// The solids with a winding number other than zero in a cell.
+    pub(crate) fn of_cell(&self, cell: usize) -> &[(u32, i32)] {
+        &self.entries[self.offsets[cell] as usize..self.offsets[cell + 1] as usize]
+    }
+}
+
+/// For each cell but the exterior, in the order of a breadth-first walk: the cell, the one it is entered from, the
+/// face crossed and the sign of the crossing (+1 from front to back).
+fn spanning_tree(n_cells: usize, cells_of_face: &[[u32; 2]]) -> Vec<(u32, u32, u32, i32)> {
+    let mut offsets = vec![0u32; n_cells + 1];
+    for &cell in cells_of_face.as_flattened() {
+        offsets[cell as usize + 1] += 1;
+    }
+    for c in 0..n_cells {
+        offsets[c + 1] += offsets[c];
+    }
+    let mut fill = offsets.clone();
+    let mut faces = vec![0u32; 2 * cells_of_face.len()];
+    for (&cells, face) in cells_of_face.iter().zip(0..) {
+        for cell in cells {
+            faces[fill[cell as usize] as usize] = face;
+            fill[cell as usize] += 1;
+        }
+    }
+    let mut seen = vec![false; n_cells];
+    seen[0] = true;
+    let mut order = vec![0u32];
+    let mut tree = Vec::with_capacity(n_cells);
+    let mut at = 0;
+    while at < order.len() {
+        let cell = order[at];
+        at += 1;
+        for &face in &faces[offsets[cell as usize] as usize..offsets[cell as usize + 1] as usize] {
+            let [front, back] = cells_of_face[face as usize];
+            let (next, sign) = if front == cell { (back, 1) } else { (front, -1) };
+            if !std::mem::replace(&mut seen[next as usize], true) {
+                order.push(next);
+                tree.push((next, cell, face, sign));
+            }
+        }
+    }
+    tree
+}
+
+fn propagate(
+    n_cells: usize,
+    tree: &[(u32, u32, u32, i32)],
+    jumps: &[Vec<Jump>],
+    value: impl Fn(&Jump) -> i32,
+) -> Vec<Vec<(u32, i32)>> {
+    let mut rows: Vec<Vec<(u32, i32)>> = vec![Vec::new(); n_cells];
+    for &(cell, from, face, sign) in tree {
+        let mut row = rows[from as usize].clone();
+        for jump in &jumps[face as usize] {
+            let change = sign * value(jump);
+            match row.binary_search_by_key(&jump.solid, |e| e.0) {
+                _ if change == 0 => {}
+                Ok(at) if row[at].1 + change == 0 => {
+                    row.remove(at);
+                }
+                Ok(at) => row[at].1 += change,
+                Err(at) => row.insert(at, (jump.solid, change)),
+            }
+        }
+        rows[cell as usize] = row;
+    }
+    rows
+}
+
+/// Marks the solids whose numbers on the two sides of a face differ by something else than the face's jump.
+fn check_face(
+    rows: &[Vec<(u32, i32)>],
+    [front, back]: [u32; 2],
+    jumps: &[Jump],
+    value: impl Fn(&Jump) -> i32,
+    reduced: impl Fn(i32) -> i32,
+    closure: &mut [Closure],
+    mark: Closure,
+) {
+    let (a, b) = (&rows[front as usize], &rows[back as usize]);
+    let in_row =
+        |row: &[(u32, i32)], solid: u32| row.binary_search_by_key(&solid, |e| e.0).map_or(0, |i| row[i].1);
+    let jump = |solid: u32| jumps.binary_search_by_key(&solid, |j| j.solid).map_or(0, |i| value(&jumps[i]));
+    for solid in a.iter().chain(b).map(|e| e.0).chain(jumps.iter().map(|j| j.solid)) {
+        if reduced(in_row(b, solid) - in_row(a, solid) - jump(solid)) != 0 {
+            closure[solid as usize] = mark;
+        }
+    }
+}
