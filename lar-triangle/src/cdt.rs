@@ -33,7 +33,8 @@ pub(crate) struct Cdt {
 }
 
 impl Cdt {
-    /// The Delaunay triangulation of the points `use_of` of `xy`; `None` when two of them coincide or all are collinear.
+    /// The Delaunay triangulation of the points `used` of `xy`; `None` when two of them coincide or all are
+    /// collinear.
     pub(crate) fn new(xy: &[Xy], mut used: Vec<u32>) -> Option<Self> {
         let at = |i: u32| xy[i as usize];
         used.sort_unstable_by(|&i, &j| {

@@ -99,6 +99,16 @@ impl Triangulation {
 ///
 /// # Errors
 /// Those of [`FaceLoops::new`] and [`crate::triangulate_face`].
+///
+/// ```
+/// use lar_core::{CellId, ChainComplex, cuboid_grid};
+/// let bar = ChainComplex::from_model(&cuboid_grid(&[2, 1, 1])).unwrap();
+/// let faces = lar_triangle::triangulate(&bar)?;
+/// assert_eq!((faces.n_faces(), faces.triangles.len(), faces.fallbacks), (11, 22, 0));
+/// let cube = faces.cell_mesh(&bar, CellId(1))?;
+/// assert_eq!((cube.points.len(), cube.triangles.len(), cube.signed_volume()), (8, 12, 1.0));
+/// # Ok::<(), lar_triangle::TriangulateError>(())
+/// ```
 pub fn triangulate(complex: &ChainComplex) -> Result<Triangulation, TriangulateError> {
     Triangulation::new(complex.points(), &FaceLoops::new(complex)?)
 }
@@ -136,6 +146,17 @@ impl CellTriangles {
 ///
 /// # Errors
 /// Those of [`triangulate`], and [`TriangulateError::ComplexDimension`] when there are no 3-cells.
+///
+/// ```
+/// use lar_core::{CellId, ChainComplex, FaceId, cuboid_grid};
+/// let bar = ChainComplex::from_model(&cuboid_grid(&[2, 1, 1])).unwrap();
+/// let all = lar_triangle::triangulate_cells(&bar)?;
+/// assert_eq!(all.n_cells(), 2);
+/// assert_eq!(all.cell(CellId(0)).len(), 12);
+/// assert_eq!(all.faces.face_triangles(FaceId(0)).len(), 2);
+/// assert_eq!(all.loops.face_edges(FaceId(0)).count(), 4);
+/// # Ok::<(), lar_triangle::TriangulateError>(())
+/// ```
 #[doc(alias = "pols2tria")]
 pub fn triangulate_cells(complex: &ChainComplex) -> Result<CellTriangles, TriangulateError> {
     let cells = columns(complex, 3)?;

@@ -6,7 +6,7 @@
 //! of one point. A corner that is not an ear because of one node waits at that node, and is looked at again when the
 //! node goes or turns convex. Without any rounding damage only class 0 is ever cut (two-ears theorem), and so
 //! the result is a true triangulation; with damage the least bad corner goes, and the laws still hold, because
-//! cutting any corner off a ring of distinct nodes keeps them.
+//! cutting any corner off a ring of distinct points keeps them (over bridges they are checked afterwards).
 //!
 //! Cost: O(n log n) for ordinary polygons, with searches in a tree of boxes; O(n²) in the worst case, since
 //! corners are looked at again at most [`WAKES`] × n times in all and one look is O(n).

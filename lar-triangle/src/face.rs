@@ -3,8 +3,8 @@
 //! 1. A triangle is its own triangulation; a quadrilateral takes the better of its two diagonals.
 //! 2. A small face without holes: ear clipping, then flips to constrained Delaunay.
 //! 3. Any other: constrained Delaunay through spade; the result is verified (positive areas, all laws).
-//! 4. When neither gives a true triangulation because rounding made the loops touch, fold or collapse: bridges and ears,
-//!    which keep the combinatorial laws on any positions; where even they break one, the fan over sewn holes.
+//! 4. When neither gives a true triangulation because rounding made the loops touch, fold or collapse: bridges and
+//!    ears, which keep the combinatorial laws on any positions; where even they break one, the fan over sewn holes.
 
 use crate::TriangulateError;
 use crate::cdt::Cdt;
@@ -173,8 +173,8 @@ impl Triangulator {
 /// [`TriangulateError::NoSuchVertex`] when a loop names no point, [`TriangulateError::ShortLoop`] when a loop has
 /// fewer than three corners, [`TriangulateError::Dimension`] for points of other than 2 or 3 coordinates.
 ///
-/// Sources: Lawson, "Software for C1 surface interpolation" (1977); Meisters, "Polygons have ears" (1975); Eberly, "Triangulation by
-/// ear clipping" (2008).
+/// Sources: Lawson, "Software for C1 surface interpolation" (1977); Meisters, "Polygons have ears" (1975); Eberly,
+/// "Triangulation by ear clipping" (2008).
 ///
 /// ```
 /// use lar_core::Points;

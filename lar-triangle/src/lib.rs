@@ -4,8 +4,8 @@
 //! ChainComplex ──loops──▶ FaceLoops ──face by face──▶ Triangulation ──signs of ∂3──▶ TriangleMesh of a cell
 //!
 //! one face:  flat (project, scale) ─┬─ 3, 4 corners: at once
-//!                                   ├─ few corners, no hole: ears ─┐
-//!                                   └─ others: cdt (spade), checked ─┴─▶ flips ─▶ the constrained Delaunay triangulation
+//!                                   ├─ few corners, no hole: ears ───┐
+//!                                   └─ others: cdt (spade), checked ─┴─▶ flips ─▶ constrained Delaunay
 //!                                        └─ rounding broke the loops: ring of bridges, ears; else fan
 //! ```
 //!
@@ -13,8 +13,9 @@
 //! - no point is invented, and every loop edge is an edge of exactly one triangle, in its direction ([`check_laws`]);
 //! - triangles turn like the face;
 //! - all decisions are taken with exact predicates on the given positions;
-//! - the result is *the* constrained Delaunay triangulation, ties going to the smallest index, and so independent of the
-//!   order of the input, unless rounding made the face untriangulable, which is counted ([`Triangulation::fallbacks`]).
+//! - the result is *the* constrained Delaunay triangulation, ties going to the smallest index, and so independent of
+//!   the order of the input, unless rounding made the face untriangulable, which is counted
+//!   ([`Triangulation::fallbacks`]).
 
 mod cdt;
 mod complex;

@@ -25,6 +25,14 @@ impl FaceLoops {
     /// # Errors
     /// [`TriangulateError::ComplexDimension`], [`TriangulateError::Shape`], [`TriangulateError::BadEdge`] and
     /// [`TriangulateError::OpenFace`], when the complex is not one.
+    ///
+    /// ```
+    /// use lar_core::{ChainComplex, FaceId, cuboid_grid};
+    /// let square = ChainComplex::from_model(&cuboid_grid(&[1, 1])).unwrap();
+    /// let loops = lar_triangle::FaceLoops::new(&square)?;
+    /// assert_eq!(loops.face(FaceId(0)).collect::<Vec<_>>(), [[0, 2, 3, 1]]);
+    /// # Ok::<(), lar_triangle::TriangulateError>(())
+    /// ```
     pub fn new(complex: &ChainComplex) -> Result<Self, TriangulateError> {
         let edges = edge_ends(complex)?;
         let faces = columns(complex, 2)?;

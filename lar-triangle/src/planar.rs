@@ -43,8 +43,8 @@ pub fn delaunay(points: &Points) -> Result<Vec<[u32; 3]>, TriangulateError> {
 ///
 /// # Errors
 /// Those of [`delaunay`]; [`TriangulateError::NoSuchVertex`] when an edge names no point;
-/// [`TriangulateError::OpenBoundary`] when some point has an odd number of edges; [`TriangulateError::CrossingEdge`] when an edge
-/// crosses another or passes through a point (arrange the edges first).
+/// [`TriangulateError::OpenBoundary`] when some point has an odd number of edges; [`TriangulateError::CrossingEdge`]
+/// when an edge crosses another or passes through a point (arrange the edges first).
 ///
 /// ```
 /// use lar_core::Points;

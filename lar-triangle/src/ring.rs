@@ -9,9 +9,10 @@
 //! ```
 //!
 //! Every bridge goes from the leftmost corner of a hole to a corner that it sees, found from the nearest edge to its
-//! left (Eberly, "Triangulation by ear clipping"). The edges are indexed by horizontal slabs, O(n) entries in all, so
-//! that a hole looks at few of them; in the worst case (all edges as tall as the face) at all, O(n) a hole. Positions of the hits
-//! are rounded: a bridge that touches something by rounding costs a badly shaped triangle, never a broken law.
+//! left (Eberly, "Triangulation by ear clipping"). The edges are indexed by horizontal slabs, O(n) entries in all,
+//! so that a hole looks at few of them; in the worst case, when the edges are as tall as the face, at all of them.
+//! Positions of the hits are rounded: a bridge that touches something by rounding costs a badly shaped triangle,
+//! never a broken law.
 
 use crate::flat::Flat;
 use crate::predicates::{Xy, in_closed_triangle, orient};

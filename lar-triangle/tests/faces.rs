@@ -265,14 +265,62 @@ fn star_with_holes() -> impl Strategy<Value = Polygon> {
     })
 }
 
-/// Loops over points of a coarse grid, so that coincidences and collinearities abound.
+/// Sizes of loops, small or large enough for every way to triangulate.
+fn sizes() -> impl Strategy<Value = Vec<usize>> {
+    prop::collection::vec(prop_oneof![9 => 3usize..9, 1 => 50usize..100], 1..5)
+}
+
+/// Loops over points of a coarse grid, so that coincidences and collinearities abound, or of a fine one, so that edges cross.
 fn garbage() -> impl Strategy<Value = (Vec<[f64; 3]>, Vec<usize>)> {
-    let sizes = prop::collection::vec(3usize..9, 1..5);
-    (sizes, 0i32..6).prop_flat_map(|(sizes, spread)| {
-        let n = sizes.iter().sum::<usize>();
-        let x = move || (-spread..=spread).prop_map(f64::from);
-        (prop::collection::vec((x(), x(), x()).prop_map(|(x, y, z)| [x, y, z]), n), Just(sizes))
+    (sizes(), prop_oneof![0i32..6, Just(10_000)]).prop_flat_map(|(sizes, spread)| {
+        let x = (-spread..=spread).prop_map(f64::from);
+        (prop::collection::vec(prop::array::uniform3(x), sizes.iter().sum::<usize>()), Just(sizes))
     })
+}
+
+/// Loops over coordinates of very different magnitude, many of them almost equal.
+fn wild() -> impl Strategy<Value = (Vec<[f64; 3]>, Vec<usize>)> {
+    let values = vec![
+        0.0,
+        -0.0,
+        1.0,
+        -1.0,
+        1.0 + f64::EPSILON,
+        1.0 - f64::EPSILON,
+        0.1 + 0.2,
+        0.3,
+        1e-16,
+        -1e-16,
+        1e-43,
+        2e-43,
+        1e-60,
+        -1e-300,
+        1e60,
+        1e300,
+        f64::MAX,
+        f64::MIN,
+        f64::MIN_POSITIVE,
+        5e-324,
+        f64::NAN,
+        f64::INFINITY,
+    ];
+    // The first values are tame; the more are used, the wilder.
+    (sizes(), 1..=values.len()).prop_flat_map(move |(sizes, used)| {
+        let x = prop::sample::select(values[..used].to_vec());
+        (prop::collection::vec(prop::array::uniform3(x), sizes.iter().sum::<usize>()), Just(sizes))
+    })
+}
+
+#[track_caller]
+fn check_garbage(xyz: &[[f64; 3]], sizes: &[usize]) {
+    let mut cycles: Vec<Vec<u32>> = Vec::new();
+    let mut first = 0;
+    for &size in sizes {
+        cycles.push((first..first + size as u32).collect());
+        first += size as u32;
+    }
+    let loops: Vec<&[u32]> = cycles.iter().map(Vec::as_slice).collect();
+    check_combinatorial(&Points::from_xyz(xyz), &loops);
 }
 
 proptest! {
@@ -286,13 +334,12 @@ proptest! {
 
     #[test]
     fn garbage_obeys_the_laws((xyz, sizes) in garbage()) {
-        let mut cycles = Vec::new();
-        for size in sizes {
-            let first = cycles.iter().map(Vec::len).sum::<usize>() as u32;
-            cycles.push((first..first + size as u32).collect::<Vec<u32>>());
-        }
-        let loops: Vec<&[u32]> = cycles.iter().map(Vec::as_slice).collect();
-        check_combinatorial(&Points::from_xyz(&xyz), &loops);
+        check_garbage(&xyz, &sizes);
+    }
+
+    #[test]
+    fn wild_magnitudes_obey_the_laws((xyz, sizes) in wild()) {
+        check_garbage(&xyz, &sizes);
     }
 
     #[test]

@@ -84,8 +84,32 @@ fn drawings_that_are_refused() {
     assert_eq!(triangulate2d(&points, &[]), Ok(Vec::new()));
 }
 
+/// Small integers, and now and then numbers of extreme or almost equal magnitude.
+fn coordinate() -> impl Strategy<Value = f64> {
+    let extreme = vec![1e-43, -2e-43, 1e-16, 1.0 + f64::EPSILON, 1e-300, 1e300, -1e60, f64::MAX, 5e-324];
+    prop_oneof![9 => (-4i32..5).prop_map(f64::from), 1 => prop::sample::select(extreme)]
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 500, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Any drawing is triangulated or refused; the triangles of the accepted ones turn counter-clockwise.
+    #[test]
+    fn any_drawing_is_triangulated_or_refused(
+        xy in prop::collection::vec(prop::array::uniform2(coordinate()), 3..30),
+        cycles in prop::collection::vec(prop::collection::vec(0u32..30, 2..6), 0..4),
+    ) {
+        let points = Points::from_columns(2, xy.as_flattened().to_vec());
+        let edges = |l: &Vec<u32>| (0..l.len()).map(|i| [l[i], l[(i + 1) % l.len()]]).collect::<Vec<_>>();
+        let edges: Vec<[u32; 2]> = cycles.iter().flat_map(edges).collect();
+        for result in [delaunay(&points), triangulate2d(&points, &edges)] {
+            for t in result.unwrap_or_default() {
+                prop_assert!(t.iter().all(|&i| (i as usize) < xy.len()));
+                // Far apart magnitudes may underflow here, not in the predicates.
+                prop_assert!(triangle_area(&points, t) >= 0.0 || xy.as_flattened().iter().any(|x| x.abs() > 1e9));
+            }
+        }
+    }
 
     /// The circle through the corners of each triangle is empty, and the triangles tile the convex hull.
     #[test]
@@ -99,7 +123,6 @@ proptest! {
         }
         let area: f64 = triangles.iter().map(|&t| triangle_area(&points, t)).sum();
         prop_assert_eq!(area, hull_area(&raw));
-        // The same triangles whatever the order of the points, as long as no four lie on one circle.
         prop_assert!(triangles.iter().all(|&t| triangle_area(&points, t) > 0.0));
     }
 }
@@ -113,7 +136,7 @@ fn incircle(t: [(i32, i32); 3], p: (i32, i32)) -> i64 {
         + a[2] * (b[0] * c[1] - b[1] * c[0])
 }
 
-/// Twice-summed monotone chain.
+/// Area of the convex hull, by a monotone chain.
 fn hull_area(raw: &[(i32, i32)]) -> f64 {
     let mut sorted = raw.to_vec();
     sorted.sort_unstable();
