@@ -19,7 +19,7 @@ pub struct FileError {
 }
 
 /// Writes a file through a buffer to a temporary file beside it, then renames that onto `path`: a reader never sees
-/// half a file, and when `write` fails the old file stays. An existing path that is no regular file (a pipe, a
+/// half a file, and when `write` fails the old file stays. A file that is replaced passes on its permissions. An existing path that is no regular file (a pipe, a
 /// device) is written directly.
 ///
 /// # Errors
@@ -56,7 +56,12 @@ fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
     // A link stays a link: what it points to is replaced.
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let (file, temporary) = temporary_beside(&target)?;
-    let done = fill(file, write).and_then(|()| fs::rename(&temporary, &target));
+    let same_permissions = || match fs::metadata(&target) {
+        Ok(old) => fs::set_permissions(&temporary, old.permissions()),
+        Err(_) => Ok(()),
+    };
+    let done =
+        fill(file, write).and_then(|()| same_permissions()).and_then(|()| fs::rename(&temporary, &target));
     if done.is_err() {
         // The first error is the one to report; a temporary file that cannot be removed changes nothing about it.
         let _ = fs::remove_file(&temporary);
@@ -146,5 +151,17 @@ mod tests {
         atomic_write(&link, |f| f.write_all(b"new")).unwrap();
         assert_eq!(fs::read(&target).unwrap(), b"new");
         assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn permissions_stay() {
+        use std::os::unix::fs::PermissionsExt;
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("private");
+        fs::write(&path, b"old").unwrap();
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o600)).unwrap();
+        atomic_write(&path, |f| f.write_all(b"new")).unwrap();
+        assert_eq!(fs::metadata(&path).unwrap().permissions().mode() & 0o777, 0o600);
     }
 }

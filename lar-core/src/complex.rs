@@ -4,12 +4,21 @@ use crate::{Cells, Points};
 use sprs::CsMatI;
 
 /// A boundary or coboundary operator: a sparse matrix with entries −1, 0, +1, in compressed columns for
-/// boundaries (column = the boundary of one cell).
+/// boundaries (column = the boundary of one cell) and compressed rows for their transposes. The matrix type keeps the
+/// indices of a column distinct and in range; the entries are checked by [`ChainComplex::validate`].
 #[doc(alias = "ChainOp")]
 pub type Operator = CsMatI<i8, u32>;
 
 /// Points and boundary operators ∂p : Cp → Cp−1, p = 1..=d; `boundary(p)` has one row for each (p−1)-cell and
 /// one column for each p-cell.
+///
+/// ```
+/// use lar_core::{ChainComplex, cuboid_grid};
+/// let complex = ChainComplex::from_model(&cuboid_grid(&[2, 1])).unwrap();
+/// assert_eq!(complex.f_vector(), [6, 7, 2]);
+/// assert_eq!((complex.boundary(2).rows(), complex.boundary(2).cols()), (7, 2));
+/// assert!(complex.validate().is_empty());
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChainComplex {
     points: Points,
@@ -52,7 +61,18 @@ impl ChainComplex {
 }
 
 impl ChainComplex {
-    /// An operator of `rows` rows from sorted columns: row indices and entries in the same flat order.
+    /// An operator of `rows` rows from its columns, stored by columns: `columns[c]` lists the rows of column c in
+    /// rising order, and `signs` holds the entries in the same flat order.
+    ///
+    /// # Panics
+    /// When the rows of a column do not rise, one is not below `rows`, or there are not as many signs as rows listed.
+    ///
+    /// ```
+    /// use lar_core::{Cells, ChainComplex};
+    /// let edges = Cells::uniform(2, vec![0, 1, 1, 2]);
+    /// let d1 = ChainComplex::operator_from_columns(3, edges, vec![-1, 1, -1, 1]);
+    /// assert_eq!((d1.rows(), d1.cols(), d1.get(2, 1)), (3, 2, Some(&1)));
+    /// ```
     #[must_use]
     pub fn operator_from_columns(rows: usize, columns: Cells, signs: Vec<i8>) -> Operator {
         let cols = columns.len();

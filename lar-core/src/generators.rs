@@ -4,7 +4,8 @@ use crate::{Cells, Model, Points, TriangleMesh};
 use rustc_hash::FxHashMap;
 
 /// The standard d-simplex: the origin and the d unit points, with all its skeletons. The p-cells are the subsets of
-/// p + 1 vertices in lexicographic order.
+/// p + 1 vertices in lexicographic order. A simplex of no dimension has no cells, since points without coordinates
+/// are not counted.
 ///
 /// # Panics
 /// When `d` is above 24: the skeletons have 2^(d+1) cells.
@@ -17,6 +18,9 @@ use rustc_hash::FxHashMap;
 #[must_use]
 pub fn simplex(d: usize) -> Model {
     assert!(d <= 24, "the skeletons of a {d}-simplex have 2^{} cells", d + 1);
+    if d == 0 {
+        return Model::new(Points::new(0), vec![Cells::new()]);
+    }
     let mut points = Points::new(d);
     let mut corner = vec![0.; d];
     points.push(&corner);
@@ -181,7 +185,8 @@ mod tests {
     fn solids() {
         check_solid(&simplex(3), &[4, 6, 4, 1], 1. / 6.);
         check_solid(&triangular_prism(), &[6, 9, 5, 1], 0.5);
-        assert_eq!(simplex(0).f_vector(), [1]);
+        assert_eq!(simplex(0).f_vector(), [0]);
+        assert_eq!(simplex(1).f_vector(), [2, 1]);
         assert_eq!(simplex(5).f_vector(), [6, 15, 20, 15, 6, 1]);
         assert_eq!(simplex(5).validate(), []);
     }

@@ -9,6 +9,8 @@ use crate::{Cells, Model, Points};
 /// The grid of `shape[0] × … × shape[d − 1]` unit cubes with its lowest corner at the origin, with all its
 /// skeletons: `cells(p)` for p = 0..=d, each cell the set of its 2^p vertices in row-major (grid) order.
 ///
+/// A grid of no dimension has no cells, since points without coordinates are not counted.
+///
 /// Vertices are numbered in row-major order, the last coordinate fastest. O(cells · 2^d) time and memory.
 ///
 /// # Panics
@@ -27,6 +29,9 @@ use crate::{Cells, Model, Points};
 #[must_use]
 pub fn cuboid_grid(shape: &[usize]) -> Model {
     let d = shape.len();
+    if d == 0 {
+        return Model::new(Points::new(0), vec![Cells::new()]);
+    }
     assert!(d < 32, "a grid of {d} dimensions has cells of 2^32 vertices or more");
     let n_vertices =
         shape.iter().try_fold(1_u32, |n, &k| n.checked_mul(u32::try_from(k).ok()?.checked_add(1)?));
@@ -127,6 +132,8 @@ mod tests {
 
     #[test]
     fn flat_grids_lose_the_dimension() {
+        assert_eq!(cuboid_grid(&[]).validate(), []);
+        assert_eq!(cuboid_grid(&[]).f_vector(), [0]);
         check(&[0], &[1, 0]);
         check(&[2, 0], &[3, 2, 0]);
     }

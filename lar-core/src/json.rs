@@ -12,6 +12,7 @@
 
 use crate::atomic_write::{FileError, atomic_write, read};
 use crate::complex::sign_columns;
+use crate::listing::first_few;
 use crate::{ChainComplex, Operator, Points, VertexId, Violation};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -91,7 +92,7 @@ pub enum JsonError {
         previous: u32,
     },
     /// The complex breaks laws; all violations are listed.
-    #[error("not a chain complex: {}", list(.0))]
+    #[error("not a chain complex: {}", first_few(.0))]
     Invalid(Vec<Violation>),
     /// The matrices would have more entries or columns than `u32` can number.
     #[error("∂{p} has 2^32 entries or more")]
@@ -110,10 +111,6 @@ pub enum JsonError {
         /// What is wrong.
         source: Box<JsonError>,
     },
-}
-
-fn list(violations: &[Violation]) -> String {
-    violations.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
 }
 
 #[derive(Deserialize)]

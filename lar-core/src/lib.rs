@@ -3,6 +3,25 @@
 //! A *model* is a set of points plus cells of dimension 0..d; a *chain complex* is the list of its sparse
 //! boundary operators ∂p : Cp → Cp−1 with entries −1, 0, +1. Every other crate of the workspace meets in these
 //! types and in nothing else.
+//!
+//! * Build: [`cuboid_grid`], [`simplex`], [`triangular_prism`], [`icosphere`], or [`read_obj`]; place with [`t`], [`s`],
+//!   [`r`] inside a [`Struct`].
+//! * Arrange: [`Model::to_surface`] turns a placed model into the [`Surface`] that an arrangement takes.
+//! * Ask: a [`ChainComplex`] holds the operators; [`Chain`]s are what they act on.
+//! * Keep: [`ChainComplex::to_json`], [`TriangleMesh::write_obj`], both through [`atomic_write()`].
+//!
+//! Broken input is data: `validate` methods list every violation. Functions that can refuse return an error that
+//! names the cells and values concerned. Nothing here prints.
+//!
+//! ```
+//! use lar_core::{ChainComplex, Struct, cuboid_grid, r, t};
+//! let cube = cuboid_grid(&[1, 1, 1]);
+//! let scene = Struct::new("scene").with(cube.clone()).with(t(&[2., 0., 0.])).with(r([0.1, 0., 0.])).with(cube);
+//! let complex = ChainComplex::from_model(&scene.struct2lar()?)?;
+//! assert_eq!(complex.f_vector(), [16, 24, 12, 2]);
+//! assert_eq!(complex.connected_components().n, 2);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod affine;
 mod atomic_write;
@@ -16,6 +35,7 @@ mod grid;
 mod ids;
 mod incidence;
 mod json;
+mod listing;
 mod measure;
 mod mesh;
 mod model;

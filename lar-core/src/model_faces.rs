@@ -8,6 +8,7 @@
 //!    face counter-clockwise); cyclic faces keep the orientation they came with.
 
 use crate::incidence::contained_cells;
+use crate::listing::first_few;
 use crate::measure::{loop_area_2d, loop_cone_volume};
 use crate::orient::{by_edge, edge_uses, orient};
 use crate::{CellId, Cells, FaceId, Model, ModelViolation, Surface, VertexId};
@@ -20,7 +21,7 @@ use crate::ChainComplex;
 #[non_exhaustive]
 pub enum ModelError {
     /// The model is malformed; all violations are listed.
-    #[error("malformed model: {}", list(.0))]
+    #[error("malformed model: {}", first_few(.0))]
     Malformed(Vec<ModelViolation>),
     /// A surface or a solid needs points of three coordinates.
     #[error("points of {dim} coordinates where 3 are needed")]
@@ -90,10 +91,6 @@ pub enum ModelError {
         /// The ends.
         edge: [VertexId; 2],
     },
-}
-
-fn list(violations: &[ModelViolation]) -> String {
-    violations.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
 }
 
 fn reason(edges: usize) -> &'static str {

@@ -79,7 +79,7 @@ impl PlacedModel {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StructError {
-    /// A transformation is singular, or has entries that are infinite or not numbers.
+    /// A transformation, or its product with those before it, is singular, or has entries that are infinite or not numbers.
     #[error("{path}: {source}")]
     Transform {
         /// The node.
@@ -236,8 +236,14 @@ impl Walk {
         path: String,
     ) -> Result<Affine, StructError> {
         self.same_space(&path, map.dim())?;
+        let product = || match current {
+            Some(current) => current.compose(map),
+            None => Ok(map.clone()),
+        };
+        let regular = |map: Affine| map.check_regular().map(|()| map);
         map.check_regular()
-            .and_then(|()| current.map_or_else(|| Ok(map.clone()), |c| c.compose(map)))
+            .and_then(|()| product())
+            .and_then(regular)
             .map_err(|source| StructError::Transform { path, source })
     }
 
@@ -382,5 +388,7 @@ mod tests {
             "s/flat: of 2-space among nodes of 3-space",
         );
         refused(&Struct::new("s").with(t(&[f64::NAN, 0.])), "s/0: entry (0, 2) is NaN");
+        let tiny = s(&[1e-200, 1e-200]);
+        refused(&Struct::new("s").with(tiny.clone()).with(tiny), "s/1: the matrix is singular");
     }
 }
