@@ -54,7 +54,8 @@ impl Bounds {
     }
 
     /// The eight corners.
-    pub fn corners(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
-        (0..8).map(|i| std::array::from_fn(|k| if i >> k & 1 == 0 { self.min[k] } else { self.max[k] }))
+    pub fn corners(&self) -> impl Iterator<Item = [f64; 3]> + use<> {
+        let Self { min, max } = *self;
+        (0..8).map(move |i| std::array::from_fn(|k| if i >> k & 1 == 0 { min[k] } else { max[k] }))
     }
 }

@@ -20,6 +20,9 @@ const RADIANS_PER_PIXEL: f64 = PI / 400.0;
 /// Part of the picture's half side left free around a fitted scene.
 const FIT_MARGIN: f64 = 0.06;
 
+/// A perspective eye stays before a fitted scene by at least this part of its depth.
+const NEAREST: f64 = 0.1;
+
 /// Zoom is refused beyond these distances, in world units, to keep every product finite in f64.
 const DISTANCES: std::ops::RangeInclusive<f64> = 1e-90..=1e110;
 
@@ -39,7 +42,7 @@ pub enum Projection {
 /// use lar_viewer::{Bounds, Camera};
 /// let cube = Bounds { min: [0.; 3], max: [1.; 3] };
 /// let camera = Camera::default().fit(&cube, 16.0 / 9.0);
-/// assert_eq!(camera.target, [0.5; 3]);
+/// assert!(camera.project([1.; 3], 720.).is_some());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
@@ -110,25 +113,44 @@ impl Camera {
         (DVec3::from(self.target) + self.basis()[2] * self.distance).to_array()
     }
 
-    /// The same view with the box in the middle and as large as fits in a picture of this aspect (width / height).
-    /// A box that is a point is shown at unit size.
+    /// The same view with the box in the middle and as large as fits in a picture of this aspect (width / height);
+    /// see [`Camera::fit_points`].
     #[must_use]
     pub fn fit(self, bounds: &Bounds, aspect: f64) -> Self {
+        self.fit_points(bounds.corners(), aspect)
+    }
+
+    /// The same direction of sight, from the nearest place that shows all points in a picture of this aspect
+    /// (width / height), with a small margin; the target lies midway in depth. Points that are all equal are shown
+    /// at unit size; without points the camera stays.
+    ///
+    /// Exact in one pass. With camera coordinates x, y (right, up) and z (back), and t the tangent of half the
+    /// opening angle, the eye (ex, ez) sees x when |x − ex| ≤ t (ez − z). So ez + ex/t ≥ A = max(z + x/t) and
+    /// ez − ex/t ≥ B = max(z − x/t), and the nearest eye has ez = (A + B)/2, ex = t (A − B)/2; the same with y, and
+    /// the larger ez counts. An orthographic camera is the case z = 0.
+    #[must_use]
+    pub fn fit_points(self, points: impl IntoIterator<Item = [f64; 3]>, aspect: f64) -> Self {
         let tan_y = (0.5 * self.fov_y).tan() * (1.0 - FIT_MARGIN);
         let tan = DVec2::new(tan_y * aspect, tan_y);
-        let center = DVec3::from(bounds.center());
         let [right, up, back] = self.basis();
-        let needed = bounds.corners().map(|corner| {
-            let v = DVec3::from(corner) - center;
-            let side = (v.dot(right).abs() / tan.x).max(v.dot(up).abs() / tan.y);
-            match self.projection {
-                Projection::Perspective => side + v.dot(back),
-                Projection::Orthographic => side,
-            }
-        });
-        let distance = needed.fold(0.0, f64::max);
-        let distance = if distance <= *DISTANCES.start() { 1.0 / tan.min_element() } else { distance };
-        Self { target: center.to_array(), distance: distance.min(*DISTANCES.end()), ..self }
+        let mut reach: Option<Reach> = None;
+        for point in points {
+            let v = DVec3::from(point);
+            let side = DVec2::new(v.dot(right), v.dot(up)) / tan;
+            let seen = Reach::of_point(side, v.dot(back), self.projection);
+            reach = Some(reach.map_or(seen, |r| r.union(seen)));
+        }
+        let Some(Reach { plus, minus, nearest, farthest }) = reach else { return self };
+        let middle = 0.5 * (nearest + farthest);
+        let eye = (0.5 * (plus + minus)).max_element();
+        let away = match self.projection {
+            Projection::Perspective => eye.max(nearest + NEAREST * (nearest - farthest)) - middle,
+            Projection::Orthographic => eye,
+        };
+        let distance = if away <= *DISTANCES.start() { 1.0 / tan.min_element() } else { away };
+        let side = 0.5 * tan * (plus - minus);
+        let target = right * side.x + up * side.y + back * middle;
+        Self { target: target.to_array(), distance: distance.min(*DISTANCES.end()), ..self }
     }
 
     /// Turned by a mouse motion of this many pixels, x to the right and y down: the object follows the mouse.
@@ -237,6 +259,31 @@ impl Camera {
     }
 }
 
+/// Extremes of the points that a camera is to show: of z + x/t and z − x/t, of z + y/t and z − y/t, and of z.
+#[derive(Clone, Copy)]
+struct Reach {
+    plus: DVec2,
+    minus: DVec2,
+    nearest: f64,
+    farthest: f64,
+}
+
+impl Reach {
+    fn of_point(side: DVec2, z: f64, projection: Projection) -> Self {
+        let shift = if projection == Projection::Perspective { z } else { 0.0 };
+        Self { plus: side + shift, minus: -side + shift, nearest: z, farthest: z }
+    }
+
+    fn union(self, other: Self) -> Self {
+        Self {
+            plus: self.plus.max(other.plus),
+            minus: self.minus.max(other.minus),
+            nearest: self.nearest.max(other.nearest),
+            farthest: self.farthest.min(other.farthest),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -295,16 +342,24 @@ mod tests {
         }
 
         #[test]
-        fn fit_shows_the_whole_box_and_touches_the_margin(camera in camera(), aspect in 0.3..3.0, p in prop::array::uniform3(-5.0..5.0_f64), q in prop::array::uniform3(-5.0..5.0_f64)) {
-            let bounds = Bounds::of([p, q]).unwrap();
-            let fitted = camera.fit(&bounds, aspect);
+        fn fit_shows_all_points_and_touches_the_margin_on_two_sides(
+            camera in camera(),
+            aspect in 0.3..3.0,
+            points in prop::collection::vec(prop::array::uniform3(-5.0..5.0_f64), 2..20),
+        ) {
+            let fitted = camera.fit_points(points.iter().copied(), aspect);
             fitted.validate().unwrap();
-            let reach = bounds.corners().map(|c| {
-                let [x, y] = fitted.project(c, 2.0).expect("before the eye");
-                (x.abs() / aspect).max(y.abs())
+            let seen = points.iter().map(|&p| {
+                let [x, y] = fitted.project(p, 2.0).expect("before the eye");
+                DVec2::new(x / aspect, y) / (1.0 - FIT_MARGIN)
             });
-            let reach = reach.fold(0.0, f64::max);
-            prop_assert!((reach - (1.0 - FIT_MARGIN)).abs() < 1e-6, "{reach}");
+            let (lo, hi) = seen.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(lo, hi), p| (lo.min(p), hi.max(p)));
+            let depths = points.iter().map(|&p| fitted.depth(p));
+            let (near, far) = depths.fold((f64::MAX, f64::MIN), |(a, b), d| (a.min(d), b.max(d)));
+            if camera.projection == Projection::Perspective && near <= (NEAREST + 1e-9) * (far - near) { return Ok(()) }
+            let within = |x: f64| (x - 1.0).abs() < 1e-6;
+            prop_assert!(hi.max_element() < 1.0 + 1e-6 && -1.0 - 1e-6 < lo.min_element());
+            prop_assert!((within(hi.x) && within(-lo.x)) || (within(hi.y) && within(-lo.y)), "{lo} {hi}");
         }
 
         #[test]
@@ -373,6 +428,6 @@ mod tests {
         let point = Bounds { min: [3.0; 3], max: [3.0; 3] };
         let camera = Camera::default().fit(&point, 1.0);
         camera.validate().unwrap();
-        assert_eq!(camera.target, [3.0; 3]);
+        assert!(DVec3::from(camera.target).abs_diff_eq(DVec3::splat(3.0), 1e-12));
     }
 }

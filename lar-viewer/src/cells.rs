@@ -32,7 +32,7 @@ pub struct CellStyle {
 impl Default for CellStyle {
     /// Opaque cells in cyclic colours with dark edges.
     fn default() -> Self {
-        Self { coloring: Coloring::Cyclic, opacity: 1.0, edge_color: INK, edge_width: 1.5 }
+        Self { coloring: Coloring::Cyclic, opacity: 1.0, edge_color: INK, edge_width: 1.8 }
     }
 }
 
@@ -108,9 +108,9 @@ fn vertex_mean(cell: &CellShape) -> [f64; 3] {
 /// Colours of the axes x, y, z: red, green, blue.
 const AXIS_COLORS: [Rgb; 3] = [[0.90, 0.25, 0.22], [0.25, 0.68, 0.30], [0.22, 0.42, 0.92]];
 /// Length of an arrow head, and its radius, in parts of the axis.
-const HEAD: [f64; 2] = [0.11, 0.035];
+const HEAD: [f64; 2] = [0.09, 0.026];
 /// Sides of an arrow head's cone.
-const HEAD_SIDES: u32 = 16;
+const HEAD_SIDES: u32 = 32;
 
 /// Adds the axes of the coordinate frame, arrows of this length at the origin: x red, y green, z blue. They do not
 /// move when the scene is exploded.

@@ -25,6 +25,8 @@ mod offscreen;
 mod palette;
 mod scene;
 mod view;
+#[cfg(feature = "window")]
+mod window;
 
 pub use bounds::Bounds;
 pub use camera::{Camera, Projection};
@@ -35,3 +37,5 @@ pub use offscreen::OffscreenRenderer;
 pub use palette::{Coloring, INK, PALETTE, Rgb, SLATE, WHITE, palette_color};
 pub use scene::{CellRef, Drawable, GroupId, Scene};
 pub use view::View;
+#[cfg(feature = "window")]
+pub use window::view;

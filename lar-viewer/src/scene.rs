@@ -66,14 +66,14 @@ impl Drawable {
     #[must_use]
     pub fn lines(name: impl Into<String>, segments: impl IntoIterator<Item = [[f64; 3]; 2]>) -> Self {
         let segments = segments.into_iter().collect();
-        Self::new(name, Shape::Lines { segments, width: 1.5, cell_edges: false }, crate::INK)
+        Self::new(name, Shape::Lines { segments, width: 1.8, cell_edges: false }, crate::INK)
     }
 
     /// Segments that are the edges of cells: drawn as `lines`, hidden when the view shows no edges.
     #[must_use]
     pub fn edges(name: impl Into<String>, segments: impl IntoIterator<Item = [[f64; 3]; 2]>) -> Self {
         let segments = segments.into_iter().collect();
-        Self::new(name, Shape::Lines { segments, width: 1.5, cell_edges: true }, crate::INK)
+        Self::new(name, Shape::Lines { segments, width: 1.8, cell_edges: true }, crate::INK)
     }
 
     /// Round dots of constant size on the screen.
@@ -310,10 +310,16 @@ impl Extents {
         Self { center, boxes }
     }
 
-    /// The box around the scene exploded by these factors.
+    /// The boxes of all drawables of the scene exploded by these factors.
+    pub(crate) fn boxes(&self, explode: [f32; 3]) -> impl Iterator<Item = Bounds> + '_ {
+        let shift =
+            move |offset: &[f64; 3]| std::array::from_fn(|k| (f64::from(explode[k]) - 1.0) * offset[k]);
+        self.boxes.iter().map(move |(b, offset)| b.moved(shift(offset)))
+    }
+
+    /// The box around them all.
     pub(crate) fn bounds(&self, explode: [f32; 3]) -> Option<Bounds> {
-        let shift = |offset: &[f64; 3]| std::array::from_fn(|k| (f64::from(explode[k]) - 1.0) * offset[k]);
-        self.boxes.iter().map(|(b, offset)| b.moved(shift(offset))).reduce(Bounds::union)
+        self.boxes(explode).reduce(Bounds::union)
     }
 }
 

@@ -1,5 +1,6 @@
 //! What is chosen anew for each picture: camera, explosion, opacity, background.
 
+use crate::scene::Extents;
 use crate::{Camera, Rgb, SLATE, Scene, ViewerError};
 
 /// Samples per pixel and axis when nothing else is asked for.
@@ -59,10 +60,13 @@ impl View {
     /// view unchanged.
     #[must_use]
     pub fn fit(self, scene: &Scene, aspect: f64) -> Self {
-        match scene.bounds(self.explode) {
-            Some(bounds) => Self { camera: self.camera.fit(&bounds, aspect), ..self },
-            None => self,
-        }
+        self.fit_extents(&Extents::new(scene), aspect)
+    }
+
+    /// The same for a scene whose extents are known.
+    pub(crate) fn fit_extents(self, extents: &Extents, aspect: f64) -> Self {
+        let corners = extents.boxes(self.explode).flat_map(|b| b.corners());
+        Self { camera: self.camera.fit_points(corners, aspect), ..self }
     }
 
     /// Checks that all parameters are finite and in range.

@@ -69,5 +69,5 @@ fn shaded(color: vec3<f32>, normal: vec3<f32>, view: vec3<f32>) -> vec3<f32> {
     let facing = dot(normal, eye);
     let outward = select(normal, -normal, facing < 0.0);
     let key = max(0.0, dot(outward, vec3<f32>(-0.42, 0.80, 0.43)));
-    return color * min(1.0, 0.50 + 0.34 * abs(facing) + 0.24 * key);
+    return color * min(1.0, 0.64 + 0.27 * abs(facing) + 0.27 * key);
 }
