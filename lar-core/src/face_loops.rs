@@ -141,7 +141,7 @@ struct Walker<'a> {
     arcs: &'a [[u32; 2]],
     /// At the first arc of each vertex: how many of its arcs are used.
     used: Vec<usize>,
-    /// At the first arc of each vertex: its place on the path.
+    /// At the first arc of each vertex: its last place on a path; it is there still if the path says so.
     place: Vec<Option<usize>>,
     loops: Vec<Vec<u32>>,
 }
@@ -170,28 +170,15 @@ impl<'a> Walker<'a> {
                 None => path.push(to),
             }
         }
-        for v in path {
-            self.forget(v);
-        }
     }
 
     /// Cuts the loop off that starts at place `i` of the path and leaves its first vertex there.
     fn cut(&mut self, path: &mut Vec<u32>, i: usize) {
         let mut cycle = path.split_off(i);
         path.push(cycle[0]);
-        for &v in &cycle[1..] {
-            self.forget(v);
-        }
         let smallest = (0..cycle.len()).min_by_key(|&k| cycle[k]).unwrap_or(0);
         cycle.rotate_left(smallest);
         self.loops.push(cycle);
-    }
-
-    fn forget(&mut self, v: u32) {
-        let key = self.key(v);
-        if let Some(place) = self.place.get_mut(key) {
-            *place = None;
-        }
     }
 
     /// The index of the first arc from `v`, or of a vertex after it when there is none.

@@ -63,16 +63,23 @@ fn disjoint_shells_are_each_outward() {
     check_closed(&skeleton(&flat, 2), 12, 0, 2.);
 }
 
+/// A square grid lifted to z = height · x · y.
+fn saddle(height: f64) -> Surface {
+    let (flat, cells) = cuboid_grid(&[3, 3]).into_parts();
+    let lifted = flat.iter().flat_map(|p| [p[0], p[1], height * p[0] * p[1]]).collect();
+    Model::new(Points::from_columns(3, lifted), cells).to_surface("sheet").unwrap()
+}
+
 #[test]
-fn open_sheets_are_coherent() {
-    let (_, cells) = cuboid_grid(&[3, 3]).into_parts();
-    let flat = cuboid_grid(&[3, 3]);
-    let lifted = flat.points().iter().flat_map(|p| [p[0], p[1], p[0] * p[1]]).collect();
-    let surface = Model::new(Points::from_columns(3, lifted), cells).to_surface("sheet").unwrap();
-    let boundary = surface.boundary_edges();
-    assert_eq!(boundary.len(), 12);
-    assert!(boundary.iter().all(|e| e.surplus == 1));
-    assert_eq!(surface.odd_boundary_edges().len(), 12);
+fn open_sheets_are_coherent_and_keep_their_first_face() {
+    for height in [1., -1.] {
+        let surface = saddle(height);
+        let boundary = surface.boundary_edges();
+        assert_eq!(boundary.len(), 12);
+        assert!(boundary.iter().all(|e| e.surplus == 1));
+        assert_eq!(surface.odd_boundary_edges().len(), 12);
+        assert_eq!(surface.face(0).next().unwrap(), [0, 1, 5, 4]);
+    }
 }
 
 #[test]

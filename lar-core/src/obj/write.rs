@@ -171,6 +171,22 @@ mod tests {
         assert!(error.starts_with("cannot write") && error.contains("ball.obj"), "{error}");
     }
 
+    #[track_caller]
+    fn check_number(x: f64, expected: &str) {
+        let mesh = TriangleMesh { points: Points::from_xyz(&[[x, 0., 0.]]), triangles: Vec::new() };
+        assert_eq!(mesh.to_obj().unwrap(), format!("v {expected} 0 0\n"));
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        check_number(-0., "-0");
+        check_number(0.1 + 0.2, "0.30000000000000004");
+        check_number(-1e15, "-1000000000000000");
+        check_number(1e300, "1e300");
+        check_number(5e-324, "5e-324");
+        check_number(0.00001, "0.00001");
+    }
+
     #[test]
     fn refusals() {
         let mut mesh = icosphere(0);
