@@ -209,8 +209,8 @@ fn determinant(matrix: DMatrix<f64>) -> f64 {
     if matrix.is_empty() { 1. } else { matrix.lu().determinant() }
 }
 
-/// The determinant after each column is divided by its largest entry, so that only the directions of the columns
-/// count and no product of small or large scales is rounded to zero or infinity.
+/// The determinant after each column is divided by its largest entry, so that only the directions of the
+/// columns count and no product of small or large scales is rounded to zero or infinity.
 fn scaled_determinant(mut matrix: DMatrix<f64>) -> f64 {
     for mut column in matrix.column_iter_mut() {
         let size = column.amax();
@@ -290,9 +290,9 @@ impl From<&[f64; 3]> for RotationVector {
     }
 }
 
-/// Rotation: `r(angle)` of the plane, `r([a, b, c])` of space about the axis in direction (a, b, c) by the angle
-/// that is its length. The sign counts: `r([-0.5, 0., 0.])` undoes `r([0.5, 0., 0.])`. The zero vector gives the
-/// identity.
+/// Rotation: `r(angle)` of the plane, `r([a, b, c])` of space about the axis in direction (a, b, c) by the
+/// angle that is its length. The sign counts: `r([-0.5, 0., 0.])` undoes `r([0.5, 0., 0.])`. The zero vector
+/// gives the identity.
 ///
 /// ```
 /// use std::f64::consts::FRAC_PI_2;

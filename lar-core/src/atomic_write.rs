@@ -18,9 +18,9 @@ pub struct FileError {
     pub source: io::Error,
 }
 
-/// Writes a file through a buffer to a temporary file beside it, then renames that onto `path`: a reader never sees
-/// half a file, and when `write` fails the old file stays. A file that is replaced passes on its permissions. An existing path that is no regular file (a pipe, a
-/// device) is written directly.
+/// Writes a file through a buffer to a temporary file beside it, then renames that onto `path`: a reader never
+/// sees half a file, and when `write` fails the old file stays. A file that is replaced passes on its
+/// permissions. An existing path that is no regular file (a pipe, a device) is written directly.
 ///
 /// # Errors
 /// When the file cannot be created, written or renamed, or `write` returns an error; the path is named and no

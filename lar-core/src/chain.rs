@@ -63,8 +63,8 @@ pub enum ChainError {
 }
 
 impl Chain {
-    /// A chain of dimension `dim` on `n_cells` cells from (cell, coefficient) pairs in any order; coefficients of one
-    /// cell add up.
+    /// A chain of dimension `dim` on `n_cells` cells from (cell, coefficient) pairs in any order; coefficients
+    /// of one cell add up.
     ///
     /// # Errors
     /// When a cell is not below `n_cells`, or a sum does not fit `i32`.
@@ -200,8 +200,8 @@ impl ChainComplex {
         self.boundary(p + 1).clone().transpose_into()
     }
 
-    /// ∂p · c, a (p−1)-chain. O(k log k) for k entries of the columns concerned. The boundary of a 0-chain is the
-    /// zero chain on no cells of dimension 0.
+    /// ∂p · c, a (p−1)-chain. O(k log k) for k entries of the columns concerned. The boundary of a 0-chain is
+    /// the zero chain on no cells of dimension 0.
     ///
     /// # Errors
     /// When the chain is not of this complex, or coefficients do not fit `i32`.

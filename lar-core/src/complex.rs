@@ -4,8 +4,8 @@ use crate::{Cells, Points};
 use sprs::CsMatI;
 
 /// A boundary or coboundary operator: a sparse matrix with entries −1, 0, +1, in compressed columns for
-/// boundaries (column = the boundary of one cell) and compressed rows for their transposes. The matrix type keeps the
-/// indices of a column distinct and in range; the entries are checked by [`ChainComplex::validate`].
+/// boundaries (column = the boundary of one cell) and compressed rows for their transposes. The matrix type
+/// keeps the indices of a column distinct and in range; the entries are checked by [`ChainComplex::validate`].
 #[doc(alias = "ChainOp")]
 pub type Operator = CsMatI<i8, u32>;
 
@@ -61,11 +61,12 @@ impl ChainComplex {
 }
 
 impl ChainComplex {
-    /// An operator of `rows` rows from its columns, stored by columns: `columns[c]` lists the rows of column c in
-    /// rising order, and `signs` holds the entries in the same flat order.
+    /// An operator of `rows` rows from its columns, stored by columns: `columns[c]` lists the rows of column c
+    /// in rising order, and `signs` holds the entries in the same flat order.
     ///
     /// # Panics
-    /// When the rows of a column do not rise, one is not below `rows`, or there are not as many signs as rows listed.
+    /// When the rows of a column do not rise, one is not below `rows`, or there are not as many signs as rows
+    /// listed.
     ///
     /// ```
     /// use lar_core::{Cells, ChainComplex};

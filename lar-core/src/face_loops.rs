@@ -6,10 +6,10 @@ use crate::{ChainComplex, Points};
 impl ChainComplex {
     /// The cyclic vertex loops of face `f`: the edges of its column of ∂2, each run along its sign, chained.
     ///
-    /// A loop is cut where it returns to a vertex, so each loop is simple. Where several edges leave a vertex the
-    /// one to the smallest vertex is taken first. Each loop starts at its smallest vertex and loops come in
-    /// lexicographic order: which one is the outer is a question of geometry. In a valid complex every edge of the
-    /// column ends up in a loop; edges of an open column that close no cycle are left out. O(k log k) for a
+    /// A loop is cut where it returns to a vertex, so each loop is simple. Where several edges leave a vertex
+    /// the one to the smallest vertex is taken first. Each loop starts at its smallest vertex and loops come in
+    /// lexicographic order: which one is the outer is a question of geometry. In a valid complex every edge of
+    /// the column ends up in a loop; edges of an open column that close no cycle are left out. O(k log k) for a
     /// face of k edges.
     ///
     /// # Panics
@@ -61,8 +61,9 @@ impl ChainComplex {
         }
     }
 
-    /// The area vector of face `f`: the sum of its loops' (Newell), so that holes count against the outer loop. It
-    /// points along the normal and is as long as the area. Points of two coordinates lie in the plane z = 0.
+    /// The area vector of face `f`: the sum of its loops' (Newell), so that holes count against the outer
+    /// loop. It points along the normal and is as long as the area. Points of two coordinates lie in the plane
+    /// z = 0.
     ///
     /// # Panics
     /// As [`face_loops`](Self::face_loops), and when ∂1 has more rows than there are points.
@@ -77,8 +78,8 @@ impl ChainComplex {
         sum
     }
 
-    /// The unit normal of face `f`, from whose tip its outer loop turns counter-clockwise; `None` when its area is
-    /// zero or not finite.
+    /// The unit normal of face `f`, from whose tip its outer loop turns counter-clockwise; `None` when its
+    /// area is zero or not finite.
     ///
     /// # Panics
     /// As [`face_area_vector`](Self::face_area_vector).
@@ -104,8 +105,8 @@ impl ChainComplex {
         dot(v, v).sqrt()
     }
 
-    /// The signed volume of every 3-cell: positive for bounded cells, and for the exterior cell minus the volume of
-    /// everything else. O(size).
+    /// The signed volume of every 3-cell: positive for bounded cells, and for the exterior cell minus the
+    /// volume of everything else. O(size).
     ///
     /// # Panics
     /// When the complex has no ∂3 or its operators do not fit each other.
@@ -221,9 +222,9 @@ mod tests {
     }
 
     //   1       3
-    //   | \\   / |      two triangles that meet in vertex 2
+    //   | \   / |      two triangles that meet in vertex 2
     //   |   2   |
-    //   | /   \\ |
+    //   | /   \ |
     //   0       4
     #[test]
     fn pinched_loops_are_cut() {

@@ -8,8 +8,8 @@ impl ChainComplex {
     /// The chain complex of a model of dimension d ≤ 3, without exterior cell: points, and ∂1 … ∂d.
     ///
     /// Faces are oriented as in [`Model::to_surface`]; in the plane, faces found by incidence are
-    /// counter-clockwise. An entry of ∂3 is +1 where the face's normal points out of the 3-cell. The 1-cells of a
-    /// model without any are the sides of its cyclic faces in first-seen order. O(n log n).
+    /// counter-clockwise. An entry of ∂3 is +1 where the face's normal points out of the 3-cell. The 1-cells
+    /// of a model without any are the sides of its cyclic faces in first-seen order. O(n log n).
     ///
     /// # Errors
     /// When the model is malformed, its dimension is above 3, or a cell is not bounded by those below; see
@@ -78,7 +78,8 @@ fn sides(loops: &Cells) -> Cells {
     edges
 }
 
-/// ∂2: each loop's sides, +1 where it runs from the smaller vertex to the larger. Of equal edges the first counts.
+/// ∂2: each loop's sides, +1 where it runs from the smaller vertex to the larger. Of equal edges the first
+/// counts.
 fn face_columns(edges: &Cells, loops: &Cells) -> Result<Operator, ModelError> {
     let mut edge_of = FxHashMap::default();
     for (id, e) in (0_u32..).zip(edges.iter()) {

@@ -3,9 +3,9 @@
 use crate::{Cells, Model, Points, TriangleMesh};
 use rustc_hash::FxHashMap;
 
-/// The standard d-simplex: the origin and the d unit points, with all its skeletons. The p-cells are the subsets of
-/// p + 1 vertices in lexicographic order. A simplex of no dimension has no cells, since points without coordinates
-/// are not counted.
+/// The standard d-simplex: the origin and the d unit points, with all its skeletons. The p-cells are the
+/// subsets of p + 1 vertices in lexicographic order. A simplex of no dimension has no cells, since points
+/// without coordinates are not counted.
 ///
 /// # Panics
 /// When `d` is above 24: the skeletons have 2^(d+1) cells.
@@ -44,7 +44,8 @@ fn push_subsets(chosen: &mut Vec<u32>, next: usize, d: usize, cells: &mut [Cells
     }
 }
 
-/// The prism over the triangle (0,0), (1,0), (0,1) from z = 0 to z = 1, with all its skeletons: f-vector 6, 9, 5, 1.
+/// The prism over the triangle (0,0), (1,0), (0,1) from z = 0 to z = 1, with all its skeletons: f-vector 6, 9,
+/// 5, 1.
 ///
 /// ```
 /// let prism = lar_core::triangular_prism();
@@ -65,8 +66,9 @@ pub fn triangular_prism() -> Model {
     Model::new(Points::from_xyz(&points), cells)
 }
 
-/// A sphere of radius 1 about the origin: the regular icosahedron, its triangles cut into four at the midpoints of
-/// their edges and the midpoints pushed out to the sphere, `level` times. 20 · 4^level triangles, outward.
+/// A sphere of radius 1 about the origin: the regular icosahedron, its triangles cut into four at the
+/// midpoints of their edges and the midpoints pushed out to the sphere, `level` times. 20 · 4^level triangles,
+/// outward.
 ///
 /// # Panics
 /// When `level` is above 13: the vertices could not be numbered by `u32`.

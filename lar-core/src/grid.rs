@@ -1,8 +1,8 @@
 //! Cuboidal grids of any dimension with the cells of every dimension.
 //!
-//! The p-cells of a d-dimensional grid are products of d factors, p of them unit intervals and d − p of them grid
-//! points. Which factors are intervals is a bit mask (the first axis is the highest bit); p-cells come in rising
-//! order of masks and, inside a mask, in row-major order of their lowest corner.
+//! The p-cells of a d-dimensional grid are products of d factors, p of them unit intervals and d − p of them
+//! grid points. Which factors are intervals is a bit mask (the first axis is the highest bit); p-cells come in
+//! rising order of masks and, inside a mask, in row-major order of their lowest corner.
 
 use crate::{Cells, Model, Points};
 

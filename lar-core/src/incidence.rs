@@ -38,9 +38,9 @@ pub fn characteristic_matrix(cells: &Cells, n_vertices: usize) -> Operator {
 
 /// For each cell of `large`, the cells of `small` all of whose vertices it has, in rising order.
 ///
-/// Each small cell is filed under the one of its vertices that fewest small cells share, so a hub vertex does not make
-/// the search quadratic. O(output + Σ over large cells of the small cells filed under their vertices) time.
-/// Empty small cells lie nowhere. Vertices must be below `n_vertices`.
+/// Each small cell is filed under the one of its vertices that fewest small cells share, so a hub vertex does
+/// not make the search quadratic. O(output + Σ over large cells of the small cells filed under their vertices)
+/// time. Empty small cells lie nowhere. Vertices must be below `n_vertices`.
 pub(crate) fn contained_cells(small: &Cells, large: &Cells, n_vertices: usize) -> Cells {
     let filed = file_cells(small, n_vertices);
     let mut last_seen_in = vec![u32::MAX; n_vertices];
@@ -121,8 +121,8 @@ impl Model {
         Ok(ChainComplex::operator_from_columns(self.cells(1).len(), edges, ones).transpose_into())
     }
 
-    /// Signed δ1 = ∂2ᵀ for convex faces: rows faces, columns edges, +1 where the face's loop runs from the smaller
-    /// vertex of the edge to the larger, −1 where it runs back. Loops are oriented as in
+    /// Signed δ1 = ∂2ᵀ for convex faces: rows faces, columns edges, +1 where the face's loop runs from the
+    /// smaller vertex of the edge to the larger, −1 where it runs back. Loops are oriented as in
     /// [`to_surface`](Self::to_surface), in the plane counter-clockwise.
     ///
     /// # Errors

@@ -6,9 +6,9 @@
 //!  "boundaries": [{"rows": 4, "columns": [[[0, -1], [1, 1]], …]}, …]}
 //! ```
 //!
-//! `space` is the number of coordinates of a point; `boundaries[p − 1]` is ∂p, each column the list of its entries
-//! [row, sign] in rising order of rows. Numbers are written in the shortest form that reads back as the same `f64`,
-//! and one complex always gives the same bytes.
+//! `space` is the number of coordinates of a point; `boundaries[p − 1]` is ∂p, each column the list of its
+//! entries [row, sign] in rising order of rows. Numbers are written in the shortest form that reads back as
+//! the same `f64`, and one complex always gives the same bytes.
 
 use crate::atomic_write::{FileError, atomic_write, read};
 use crate::complex::sign_columns;

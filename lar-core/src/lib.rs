@@ -4,19 +4,20 @@
 //! boundary operators ∂p : Cp → Cp−1 with entries −1, 0, +1. Every other crate of the workspace meets in these
 //! types and in nothing else.
 //!
-//! * Build: [`cuboid_grid`], [`simplex`], [`triangular_prism`], [`icosphere`], or [`read_obj`]; place with [`t`], [`s`],
-//!   [`r`] inside a [`Struct`].
+//! * Build: [`cuboid_grid`], [`simplex`], [`triangular_prism`], [`icosphere`], or [`read_obj`]; place with
+//!   [`t`], [`s`], [`r`] inside a [`Struct`].
 //! * Arrange: [`Model::to_surface`] turns a placed model into the [`Surface`] that an arrangement takes.
 //! * Ask: a [`ChainComplex`] holds the operators; [`Chain`]s are what they act on.
 //! * Keep: [`ChainComplex::to_json`], [`TriangleMesh::write_obj`], both through [`atomic_write()`].
 //!
-//! Broken input is data: `validate` methods list every violation. Functions that can refuse return an error that
-//! names the cells and values concerned. Nothing here prints.
+//! Broken input is data: `validate` methods list every violation. Functions that can refuse return an error
+//! that names the cells and values concerned. Nothing here prints.
 //!
 //! ```
 //! use lar_core::{ChainComplex, Struct, cuboid_grid, r, t};
 //! let cube = cuboid_grid(&[1, 1, 1]);
-//! let scene = Struct::new("scene").with(cube.clone()).with(t(&[2., 0., 0.])).with(r([0.1, 0., 0.])).with(cube);
+//! let (by, turn) = (t(&[2., 0., 0.]), r([0.1, 0., 0.]));
+//! let scene = Struct::new("scene").with(cube.clone()).with(by).with(turn).with(cube);
 //! let complex = ChainComplex::from_model(&scene.struct2lar()?)?;
 //! assert_eq!(complex.f_vector(), [16, 24, 12, 2]);
 //! assert_eq!(complex.connected_components().n, 2);

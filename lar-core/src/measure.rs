@@ -55,9 +55,9 @@ pub(crate) fn loop_area_vector(points: &Points, cycle: &[u32]) -> Vec3 {
     doubled.map(|x| x / 2.)
 }
 
-/// Signed volume of the cone from `apex` over the triangles that fan out from the loop's first vertex; positive when
-/// the loop turns counter-clockwise seen from outside. Summed over the loops of a closed surface this is the
-/// enclosed volume, whatever the apex.
+/// Signed volume of the cone from `apex` over the triangles that fan out from the loop's first vertex;
+/// positive when the loop turns counter-clockwise seen from outside. Summed over the loops of a closed surface
+/// this is the enclosed volume, whatever the apex.
 pub(crate) fn loop_cone_volume(points: &Points, cycle: &[u32], apex: Vec3) -> f64 {
     let Some(&first) = cycle.first() else { return 0. };
     dot(loop_area_vector(points, cycle), sub(xyz(points, first as usize), apex)) / 3.

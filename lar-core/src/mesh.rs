@@ -7,7 +7,8 @@ use crate::{Affine, AffineError, Points};
 
 /// Triangles over a 3 × n set of points, each counter-clockwise seen from outside.
 ///
-/// The methods panic when a triangle names a vertex that does not exist or the points are not of three coordinates.
+/// The methods panic when a triangle names a vertex that does not exist or the points are not of three
+/// coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TriangleMesh {
     /// 3 × n.
@@ -17,8 +18,8 @@ pub struct TriangleMesh {
 }
 
 impl TriangleMesh {
-    /// The enclosed volume, negative when the triangles face inward; for an open mesh the volume of the cones over
-    /// its triangles from the middle of its bounding box. O(n).
+    /// The enclosed volume, negative when the triangles face inward; for an open mesh the volume of the cones
+    /// over its triangles from the middle of its bounding box. O(n).
     ///
     /// ```
     /// let ball = lar_core::icosphere(5);
@@ -37,7 +38,8 @@ impl TriangleMesh {
         six / 6.
     }
 
-    /// The mesh moved by an affine map; triangles are reversed when the map mirrors, so that outward stays outward.
+    /// The mesh moved by an affine map; triangles are reversed when the map mirrors, so that outward stays
+    /// outward.
     ///
     /// # Errors
     /// When the map is not of the space of the points.
@@ -71,8 +73,8 @@ impl TriangleMesh {
         Some(([lo[0], lo[1], lo[2]], [hi[0], hi[1], hi[2]]))
     }
 
-    /// True when each directed edge is matched by its reverse, as often as it occurs. Vertices are told apart by
-    /// index, not by position. O(n log n).
+    /// True when each directed edge is matched by its reverse, as often as it occurs. Vertices are told apart
+    /// by index, not by position. O(n log n).
     #[must_use]
     pub fn is_closed(&self) -> bool {
         let triangles = (0..).zip(self.triangles.iter().map(|t| &t[..]));

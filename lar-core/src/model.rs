@@ -126,8 +126,8 @@ impl Model {
         (self.points, self.cells)
     }
 
-    /// The model moved by an affine map. Cyclic faces (2-cells of a model without 1-cells) are reversed when the
-    /// map mirrors, so that an outward face stays outward.
+    /// The model moved by an affine map. Cyclic faces (2-cells of a model without 1-cells) are reversed when
+    /// the map mirrors, so that an outward face stays outward.
     ///
     /// # Errors
     /// When the map is not of the model's space.

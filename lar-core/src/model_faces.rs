@@ -1,11 +1,11 @@
 //! From vertex sets to oriented faces: what [`Model::to_surface`] and [`ChainComplex::from_model`] share.
 //!
-//! 1. The loop of each 2-cell: its 1-cells (those with both ends among its vertices) chained into a cycle, or the
-//!    2-cell itself when the model has no 1-cells.
-//! 2. Orientation. With 3-cells: each 3-cell's faces are those whose vertices it has; they are oriented coherently
-//!    and outward, and the signs of a face in its one or two 3-cells are added up. Without 3-cells, faces found by
-//!    incidence are oriented coherently over edges of two faces, each closed component outward (in the plane: each
-//!    face counter-clockwise); cyclic faces keep the orientation they came with.
+//! 1. The loop of each 2-cell: its 1-cells (those with both ends among its vertices) chained into a cycle, or
+//!    the 2-cell itself when the model has no 1-cells.
+//! 2. Orientation. With 3-cells: each 3-cell's faces are those whose vertices it has; they are oriented
+//!    coherently and outward, and the signs of a face in its one or two 3-cells are added up. Without 3-cells,
+//!    faces found by incidence are oriented coherently over edges of two faces, each closed component outward
+//!    (in the plane: each face counter-clockwise); cyclic faces keep the orientation they came with.
 
 use crate::incidence::contained_cells;
 use crate::listing::first_few;
@@ -38,8 +38,8 @@ pub enum ModelError {
         /// Dimension of the highest cells.
         dim: usize,
     },
-    /// The edges of a 2-cell do not pass its vertices twice each: an edge is missing, or two vertices that are not
-    /// neighbours are joined by a chord.
+    /// The edges of a 2-cell do not pass its vertices twice each: an edge is missing, or two vertices that are
+    /// not neighbours are joined by a chord.
     #[error("{edges} edges of 2-cell {face} meet at its vertex {vertex} where 2 are needed: {}", reason(*.edges))]
     FaceNotLoop {
         /// The 2-cell.
@@ -112,17 +112,17 @@ pub(crate) struct OrientedFaces {
 impl Model {
     /// The polygonal surface of a model in 3-space, for an arrangement.
     ///
-    /// The loop of a 2-cell is the cycle of the 1-cells that have both ends in it; in a model without 1-cells each
-    /// 2-cell is a loop already. With 3-cells, the coefficient of a face is the sum of its signs in the boundaries
-    /// of the 3-cells: +1 for a face of one 3-cell, turned outward, and 0 for a wall between two. Without them all
-    /// coefficients are +1; faces found by incidence are oriented coherently, each closed component outward, and
-    /// cyclic faces keep their orientation.
+    /// The loop of a 2-cell is the cycle of the 1-cells that have both ends in it; in a model without 1-cells
+    /// each 2-cell is a loop already. With 3-cells, the coefficient of a face is the sum of its signs in the
+    /// boundaries of the 3-cells: +1 for a face of one 3-cell, turned outward, and 0 for a wall between two.
+    /// Without them all coefficients are +1; faces found by incidence are oriented coherently, each closed
+    /// component outward, and cyclic faces keep their orientation.
     ///
     /// O(n log n) in the size of the model.
     ///
     /// # Errors
-    /// When the model is malformed, not in 3-space, has no faces, or its faces or 3-cells are not bounded by the cells
-    /// one dimension below; the cell is named.
+    /// When the model is malformed, not in 3-space, has no faces, or its faces or 3-cells are not bounded by
+    /// the cells one dimension below; the cell is named.
     ///
     /// ```
     /// let surface = lar_core::cuboid_grid(&[2, 1, 1]).to_surface("bar").unwrap();

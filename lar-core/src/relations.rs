@@ -7,9 +7,9 @@
 use crate::{Cells, ChainComplex, Operator};
 
 impl ChainComplex {
-    /// For each p-cell, the q-cells related to it, in rising order: its faces of dimension q when q < p, the cells
-    /// it is a face of when q > p, and when q = p the other p-cells that share a (p−1)-cell with it (for vertices: that
-    /// share an edge). Cells of a dimension above d do not exist. O(size of the products).
+    /// For each p-cell, the q-cells related to it, in rising order: its faces of dimension q when q < p, the
+    /// cells it is a face of when q > p, and when q = p the other p-cells that share a (p−1)-cell with it (for
+    /// vertices: that share an edge). Cells of a dimension above d do not exist. O(size of the products).
     ///
     /// # Panics
     /// When the relation has 2^32 pairs or more.

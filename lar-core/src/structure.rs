@@ -79,7 +79,8 @@ impl PlacedModel {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StructError {
-    /// A transformation, or its product with those before it, is singular, or has entries that are infinite or not numbers.
+    /// A transformation, or its product with those before it, is singular, or has entries that are infinite or
+    /// not numbers.
     #[error("{path}: {source}")]
     Transform {
         /// The node.

@@ -7,8 +7,8 @@ use crate::{Affine, AffineError, Cells, Points, TriangleMesh};
 /// Faces may cross each other, repeat, touch, leave the surface open.
 ///
 /// `loops[l]` lists the vertices of loop l; `face_loops[f]..face_loops[f + 1]` are the loops of face f, the
-/// outer one first. `coefficients[f]` is the face's coefficient (−1, 0, +1, …) in the boundary of the solid that
-/// the surface bounds: 0 for an inner wall, which divides space but bounds nothing.
+/// outer one first. `coefficients[f]` is the face's coefficient (−1, 0, +1, …) in the boundary of the solid
+/// that the surface bounds: 0 for an inner wall, which divides space but bounds nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
     /// Name, for messages and expressions.
@@ -64,8 +64,8 @@ impl Surface {
         surface
     }
 
-    /// The surface moved by an affine map; all loops are reversed when the map mirrors, so that outward faces stay
-    /// outward.
+    /// The surface moved by an affine map; all loops are reversed when the map mirrors, so that outward faces
+    /// stay outward.
     ///
     /// # Errors
     /// When the map is not of 3-space.

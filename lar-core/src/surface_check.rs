@@ -68,7 +68,8 @@ pub enum SurfaceViolation {
 pub struct BoundaryEdge {
     /// Its ends, in the direction in which it is used more often.
     pub ends: [VertexId; 2],
-    /// How much more often: uses in that direction minus uses in the other, each times the coefficient of its face.
+    /// How much more often: uses in that direction minus uses in the other, each times the coefficient of its
+    /// face.
     pub surplus: i64,
 }
 
@@ -121,9 +122,9 @@ impl Surface {
         }
     }
 
-    /// The edges at which the surface, its faces taken with their coefficients, is open: the boundary of its 2-chain.
-    /// Sorted by ends; empty when the surface bounds a solid. Vertices are told apart by index, not by position.
-    /// O(n log n).
+    /// The edges at which the surface, its faces taken with their coefficients, is open: the boundary of its
+    /// 2-chain. Sorted by ends; empty when the surface bounds a solid. Vertices are told apart by index, not
+    /// by position. O(n log n).
     #[must_use]
     pub fn boundary_edges(&self) -> Vec<BoundaryEdge> {
         let surplus = |group: &[EdgeUse]| -> i64 {
@@ -140,9 +141,9 @@ impl Surface {
         by_edge(&self.uses()).filter_map(open).collect()
     }
 
-    /// The edges used an odd number of times by faces of odd coefficient: the boundary modulo 2, smaller end first,
-    /// sorted. Where this is empty and [`boundary_edges`](Self::boundary_edges) is not, the surface is closed but
-    /// not oriented consistently. O(n log n).
+    /// The edges used an odd number of times by faces of odd coefficient: the boundary modulo 2, smaller end
+    /// first, sorted. Where this is empty and [`boundary_edges`](Self::boundary_edges) is not, the surface is
+    /// closed but not oriented consistently. O(n log n).
     #[must_use]
     pub fn odd_boundary_edges(&self) -> Vec<[VertexId; 2]> {
         let odd = |u: &&EdgeUse| self.coefficient(u.face as usize) % 2 != 0;

@@ -109,9 +109,9 @@ fn list(entries: &[(impl ToString, i8)]) -> String {
 }
 
 impl ChainComplex {
-    /// All violations of the laws that every complex keeps: operators fit, their entries are −1, 0, +1, each edge
-    /// runs from its smaller to its larger vertex, ∂p·∂p+1 = 0, at most one d-cell of a complex in d-space on each
-    /// side of a (d−1)-cell, finite points. Empty when all hold. O(size · log).
+    /// All violations of the laws that every complex keeps: operators fit, their entries are −1, 0, +1, each
+    /// edge runs from its smaller to its larger vertex, ∂p·∂p+1 = 0, at most one d-cell of a complex in
+    /// d-space on each side of a (d−1)-cell, finite points. Empty when all hold. O(size · log).
     ///
     /// That rows are distinct in each column is kept by the matrix type itself.
     ///

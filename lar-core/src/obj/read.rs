@@ -1,8 +1,8 @@
 //! Reading OBJ.
 //!
-//! Read are `v`, `f`, `g`, `o`, comments and lines continued by a backslash; other statements (normals, textures,
-//! materials, lines, curves) say nothing about polygons and are passed over. Corners keep their vertex only. A
-//! face may name vertices that come further down.
+//! Read are `v`, `f`, `g`, `o`, comments and lines continued by a backslash; other statements (normals,
+//! textures, materials, lines, curves) say nothing about polygons and are passed over. Corners keep their
+//! vertex only. A face may name vertices that come further down.
 
 use super::ObjError;
 use crate::atomic_write::read;
@@ -17,8 +17,9 @@ pub enum ObjGrouping {
     /// One surface of all faces, named by the file.
     #[default]
     Whole,
-    /// One surface for each name that a `g` or `o` statement gives, in the order of their first faces; faces before
-    /// the first such statement make a surface named by the file. Each keeps only the vertices that it uses.
+    /// One surface for each name that a `g` or `o` statement gives, in the order of their first faces; faces
+    /// before the first such statement make a surface named by the file. Each keeps only the vertices that it
+    /// uses.
     Groups,
 }
 

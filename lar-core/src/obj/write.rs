@@ -9,8 +9,8 @@ impl TriangleMesh {
     /// Writes the mesh as an OBJ file, whole or not at all.
     ///
     /// # Errors
-    /// When a triangle names a vertex that does not exist, the points are not of two or three coordinates, or the file
-    /// cannot be written.
+    /// When a triangle names a vertex that does not exist, the points are not of two or three coordinates, or
+    /// the file cannot be written.
     pub fn write_obj(&self, path: impl AsRef<Path>) -> Result<(), ObjError> {
         self.check_writable()?;
         atomic_write(path, |out| self.write(out))?;
