@@ -1,7 +1,5 @@
 //! What can go wrong between a scene and a picture, said with names and values.
 
-use std::path::PathBuf;
-
 /// Why a scene cannot be built, drawn or shown.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -135,13 +133,8 @@ pub enum ViewerError {
         adapter: String,
     },
     /// A picture file could not be written.
-    #[error("cannot write {}: {source}", path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: std::io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] lar_core::FileError),
     /// A picture could not be encoded.
     #[error("cannot encode the picture as PNG: {0}")]
     Encode(#[from] png::EncodingError),

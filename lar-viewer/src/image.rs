@@ -1,16 +1,21 @@
 //! Pictures and their files.
 
 use crate::ViewerError;
-use std::fs;
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A picture of 8-bit RGBA pixels, row by row from the top.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq)]
 pub struct Image {
     width: u32,
     height: u32,
     pixels: Vec<u8>,
+}
+
+impl std::fmt::Debug for Image {
+    /// The size only: the bytes of a picture fill screens.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Image({} × {})", self.width, self.height)
+    }
 }
 
 impl Image {
@@ -65,32 +70,17 @@ impl Image {
     /// Writes a PNG file. An existing file is replaced only when the new one is complete.
     ///
     /// # Errors
-    /// `Encode`, or `Write` with the path.
+    /// `Encode`, or `File` with the path.
     pub fn write_png(&self, path: impl AsRef<Path>) -> Result<(), ViewerError> {
-        let path = path.as_ref();
         let bytes = self.to_png()?;
-        replace(path, &bytes).map_err(|source| ViewerError::Write { path: path.to_owned(), source })
+        Ok(lar_core::atomic_write(path, |file| file.write_all(&bytes))?)
     }
-}
-
-/// Writes a temporary file beside `path` and renames it.
-fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut name = path.file_name().ok_or(io::ErrorKind::InvalidInput)?.to_owned();
-    name.push(format!(".{}.tmp", std::process::id()));
-    let temporary: PathBuf = path.with_file_name(name);
-    let written = fs::File::create(&temporary)
-        .and_then(|mut file| file.write_all(bytes))
-        .and_then(|()| fs::rename(&temporary, path));
-    if written.is_err() {
-        // What went wrong is reported; a temporary file that cannot be removed either is not.
-        let _ = fs::remove_file(&temporary);
-    }
-    written
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     fn checker() -> Image {
         let pixels = (0..6_u8).flat_map(|i| [i * 40, 255 - i * 40, i, 255]).collect();
@@ -103,7 +93,7 @@ mod tests {
         let path = dir.path().join("checker.png");
         checker().write_png(&path).unwrap();
         checker().write_png(&path).unwrap();
-        let file = io::BufReader::new(fs::File::open(&path).unwrap());
+        let file = std::io::BufReader::new(fs::File::open(&path).unwrap());
         let mut reader = png::Decoder::new(file).read_info().unwrap();
         let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
         let info = reader.next_frame(&mut pixels).unwrap();
@@ -118,8 +108,7 @@ mod tests {
         let path = dir.path().join("missing").join("a.png");
         let error = checker().write_png(&path).unwrap_err().to_string();
         assert!(error.starts_with("cannot write ") && error.contains("a.png"), "{error}");
-        assert!(matches!(checker().write_png(dir.path()), Err(ViewerError::Write { .. })), "a directory");
-        assert!(matches!(checker().write_png("/"), Err(ViewerError::Write { .. })), "no file name");
+        assert!(matches!(checker().write_png(dir.path()), Err(ViewerError::File(_))), "a directory");
         assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0);
     }
 

@@ -34,6 +34,14 @@ impl OffscreenRenderer {
         Ok(Self { renderer: Renderer::new(Context::off_screen()?)? })
     }
 
+    /// With this many bytes at most for the layers of transparent pictures, 256 MiB when not said. Pictures that need
+    /// more are drawn in bands, one after the other, and come out the same.
+    #[must_use]
+    pub fn layer_memory(mut self, bytes: u64) -> Self {
+        self.renderer.set_layer_memory(bytes);
+        self
+    }
+
     /// Name and backend of the adapter that draws.
     #[must_use]
     pub fn adapter_name(&self) -> &str {

@@ -1,5 +1,4 @@
 //! What pictures must hold, drawn off-screen; needs an adapter (see `support::renderer`).
-
 mod support;
 
 use lar_core::{Points, TriangleMesh};
@@ -212,6 +211,19 @@ fn hidden_edges_leave_faces_and_other_lines() {
     let style = CellStyle { opacity: 0.35, edge_width: 0.0, ..CellStyle::default() };
     push_cells(&mut bare, cube_grid(2), &style).unwrap();
     assert_eq!(draw(&mut renderer, &scene, &without), draw(&mut renderer, &bare, &view));
+}
+
+#[test]
+fn pictures_drawn_in_bands_are_the_same() {
+    let Some(mut whole) = renderer() else { return };
+    let (scene, view) = exploded_grid();
+    let expected = draw(&mut whole, &scene, &view);
+    for bytes in [1 << 20, 200_000, 60_000] {
+        let mut banded = renderer().expect("there was one before").layer_memory(bytes);
+        assert!(draw(&mut banded, &scene, &view) == expected, "with {bytes} bytes for layers");
+    }
+    let error = whole.layer_memory(1000).render(&scene, &view, SIZE[0], SIZE[1]).unwrap_err();
+    assert!(matches!(error, ViewerError::TooManyLayers { limit: 83, .. }), "{error}");
 }
 
 #[test]

@@ -32,6 +32,7 @@ impl Drop for Session {
 }
 
 impl Session {
+    #[expect(clippy::print_stderr, reason = "a test that cannot run says so")]
     fn start() -> Option<Self> {
         let missing = ["Xvfb", "xdotool", "import"].into_iter().find(|program| !is_installed(program));
         if let Some(program) = missing {
@@ -163,7 +164,7 @@ fn a_session_with_mouse_and_keys() {
     session.check_changes("projection", 10_000, |s| s.xdotool("mousemove 500 500 key p"));
     session.check_changes("fitting", 20_000, |s| s.xdotool("key f"));
     session.check_changes("shrinking the window", 20_000, |s| {
-        s.xdotool("search --name cubes windowsize 700 500")
+        s.xdotool("search --name cubes windowsize 700 500");
     });
     session.xdotool("search --name cubes windowsize 1 1");
     session.check_changes("enlarging the window", 20_000, |s| {

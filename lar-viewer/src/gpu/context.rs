@@ -17,6 +17,7 @@ pub(crate) struct Context {
     pub(crate) limits: Limits,
     pub(crate) adapter_name: String,
     /// The adapter draws on the processor.
+    #[cfg(feature = "window")]
     pub(crate) is_software: bool,
     first_error: Arc<Mutex<Option<String>>>,
 }
@@ -46,8 +47,15 @@ impl Context {
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
             slot.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert_with(|| error.to_string());
         }));
-        let is_software = info.device_type == DeviceType::Cpu;
-        Ok(Self { device, queue, limits, adapter_name, is_software, first_error })
+        Ok(Self {
+            device,
+            queue,
+            limits,
+            adapter_name,
+            #[cfg(feature = "window")]
+            is_software: info.device_type == DeviceType::Cpu,
+            first_error,
+        })
     }
 
     /// The first error that the device has reported since the last call.

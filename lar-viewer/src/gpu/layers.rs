@@ -13,9 +13,9 @@ use wgpu::{BindingResource, Buffer, BufferUsages};
 
 /// Size of `Node` in `layers.wgsl`.
 pub(crate) const NODE_BYTES: u32 = 12;
-/// Bytes that the node buffer takes at most, where the adapter allows as much: 22 million layers.
-const NODE_BYTES_LIMIT: u64 = 256 << 20;
-/// Layers that there is room for in the first frame.
+/// Bytes that the node buffer takes at most unless asked for otherwise: 22 million layers.
+pub(crate) const DEFAULT_MEMORY: u64 = 256 << 20;
+/// Layers that there is room for in the first frame, where that is allowed.
 const FIRST_CAPACITY: u32 = 1 << 18;
 
 /// Buffers of the A-buffer for pictures of one size.
@@ -82,8 +82,9 @@ impl Layers {
     }
 
     /// Buffers for the first frame of a size.
-    pub(crate) fn first(context: &Context, pipelines: &Pipelines, targets: &Targets) -> Self {
-        Self::new(context, pipelines, targets, targets.raster.size()[1], FIRST_CAPACITY)
+    pub(crate) fn first(context: &Context, pipelines: &Pipelines, targets: &Targets, memory: u64) -> Self {
+        let capacity = FIRST_CAPACITY.min(most_nodes(context, memory));
+        Self::new(context, pipelines, targets, targets.raster.size()[1], capacity)
     }
 
     /// The bands from top to bottom.
@@ -111,12 +112,12 @@ impl Layers {
         context: &Context,
         pipelines: &Pipelines,
         targets: &Targets,
+        memory: u64,
     ) -> Result<Option<Self>, ViewerError> {
         let needed = context.read(&self.readback, |bytes| {
             bytes.chunks_exact(4).map(|c| u32::from_ne_bytes([c[0], c[1], c[2], c[3]])).max().unwrap_or(0)
         })?;
-        let limit = context.largest_storage().min(NODE_BYTES_LIMIT) / u64::from(NODE_BYTES);
-        let limit = u32::try_from(limit).unwrap_or(u32::MAX);
+        let limit = most_nodes(context, memory);
         match need(needed, self.node_capacity, limit, self.band_rows) {
             Need::Satisfied => Ok(None),
             Need::Redraw { band_rows, node_capacity } => {
@@ -143,6 +144,12 @@ fn need(needed: u32, capacity: u32, limit: u32, band_rows: u32) -> Need {
     } else {
         Need::Hopeless
     }
+}
+
+/// Nodes that fit in this many bytes and in a buffer of the adapter.
+fn most_nodes(context: &Context, memory: u64) -> u32 {
+    let nodes = context.largest_storage().min(memory) / u64::from(NODE_BYTES);
+    u32::try_from(nodes).unwrap_or(u32::MAX).max(1)
 }
 
 fn largest_band(context: &Context, [width, height]: [u32; 2]) -> u32 {

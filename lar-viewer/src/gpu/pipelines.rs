@@ -10,8 +10,9 @@ use wgpu::{BindGroupLayout, Device, PipelineLayout, RenderPipeline, ShaderStages
 
 /// Colour of samples and of the finished picture.
 pub(crate) const COLOR: TextureFormat = TextureFormat::Rgba8Unorm;
-/// Depth of the opaque surface, as the layer shaders read it: OpenGL cannot load from depth textures.
-pub(crate) const OPAQUE_DEPTH: TextureFormat = TextureFormat::R32Float;
+/// Depth of the opaque surface, as the layer shaders read it: the bits of an f32, since OpenGL can neither load from
+/// depth textures nor everywhere draw into textures of floats.
+pub(crate) const OPAQUE_DEPTH: TextureFormat = TextureFormat::R32Uint;
 /// Depth buffer of the opaque pass.
 pub(crate) const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 
@@ -37,7 +38,7 @@ impl Pipelines {
     pub(crate) fn new(device: &Device) -> Self {
         let frame_layout = frame_layout(device);
         let layers_layout = layers_layout(device);
-        let samples_layout = bind_group_layout(device, "samples", &[texture_entry(0)]);
+        let samples_layout = bind_group_layout(device, "samples", &[texture_entry(0, SAMPLE_COLOR)]);
         let opaque = pipeline_layout(device, &[&frame_layout]);
         let layer = pipeline_layout(device, &[&frame_layout, &layers_layout]);
         let reduce = pipeline_layout(device, &[&frame_layout, &samples_layout]);
@@ -74,7 +75,11 @@ fn frame_layout(device: &Device) -> BindGroupLayout {
 
 fn layers_layout(device: &Device) -> BindGroupLayout {
     let writable = |binding| storage_entry(binding, ShaderStages::FRAGMENT, false);
-    bind_group_layout(device, "layers", &[writable(0), writable(1), writable(2), texture_entry(3)])
+    bind_group_layout(
+        device,
+        "layers",
+        &[writable(0), writable(1), writable(2), texture_entry(3, wgpu::TextureSampleType::Uint)],
+    )
 }
 
 fn storage_entry(binding: u32, visibility: ShaderStages, read_only: bool) -> wgpu::BindGroupLayoutEntry {
@@ -83,9 +88,12 @@ fn storage_entry(binding: u32, visibility: ShaderStages, read_only: bool) -> wgp
     wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None }
 }
 
-fn texture_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
+/// What the shader that averages samples reads.
+const SAMPLE_COLOR: wgpu::TextureSampleType = wgpu::TextureSampleType::Float { filterable: false };
+
+fn texture_entry(binding: u32, sample_type: wgpu::TextureSampleType) -> wgpu::BindGroupLayoutEntry {
     let ty = wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Float { filterable: false },
+        sample_type,
         view_dimension: wgpu::TextureViewDimension::D2,
         multisampled: false,
     };

@@ -15,7 +15,7 @@
 use super::batch::{Batch, Sorted};
 use super::context::Context;
 use super::frame::{Frame, Placement, Raster};
-use super::layers::{Band, Layers};
+use super::layers::{Band, DEFAULT_MEMORY, Layers};
 use super::pipelines::Pipelines;
 use super::targets::Targets;
 use crate::scene::Extents;
@@ -24,6 +24,8 @@ use wgpu::{Buffer, BufferUsages, CommandEncoder, LoadOp, Operations, RenderPass,
 
 /// Distance of the frames of two bands in the uniform buffer: the largest alignment that any adapter asks for.
 const FRAME_STRIDE: usize = 256;
+/// The bits of the depth 1.
+const FARTHEST: wgpu::Color = wgpu::Color { r: 0x3f80_0000_u32 as f64, g: 0.0, b: 0.0, a: 0.0 };
 /// Samples in one frame at most: their textures take 12 bytes each.
 const SAMPLE_LIMIT: u64 = 1 << 26;
 
@@ -82,13 +84,15 @@ pub(crate) struct Renderer {
     pipelines: Pipelines,
     targets: Option<Targets>,
     layers: Option<Layers>,
+    /// Bytes that stored layers may take.
+    layer_memory: u64,
 }
 
 impl Renderer {
     pub(crate) fn new(context: Context) -> Result<Self, ViewerError> {
         let pipelines = Pipelines::new(&context.device);
         context.check()?;
-        Ok(Self { context, pipelines, targets: None, layers: None })
+        Ok(Self { context, pipelines, targets: None, layers: None, layer_memory: DEFAULT_MEMORY })
     }
 
     /// Draws the scene and returns the picture, `width` × `height` pixels of 8-bit RGBA.
@@ -113,6 +117,12 @@ impl Renderer {
         let layers = if draw.has_layers() { draw.with_layers()? } else { draw.without_layers()? };
         self.layers = layers.or(self.layers.take());
         Ok(self.targets.insert(targets))
+    }
+
+    /// Allows this many bytes for layers from the next frame on.
+    pub(crate) fn set_layer_memory(&mut self, bytes: u64) {
+        self.layer_memory = bytes;
+        self.layers = None;
     }
 
     /// The pixels of the picture that was drawn last.
@@ -197,12 +207,13 @@ impl Draw<'_> {
 
     /// Draws until no layer is lost; returns the buffers that it took when they are new.
     fn with_layers(&self) -> Result<Option<Layers>, ViewerError> {
-        let Renderer { context, pipelines, layers, .. } = self.renderer;
-        let mut new = layers.is_none().then(|| Layers::first(context, pipelines, self.targets));
+        let Renderer { context, pipelines, layers, layer_memory, .. } = self.renderer;
+        let mut new =
+            layers.is_none().then(|| Layers::first(context, pipelines, self.targets, *layer_memory));
         loop {
             let Some(current) = new.as_ref().or(layers.as_ref()) else { return Ok(None) };
             self.draw_layers(current)?;
-            match current.larger(context, pipelines, self.targets)? {
+            match current.larger(context, pipelines, self.targets, *layer_memory)? {
                 Some(larger) => new = Some(larger),
                 None => return Ok(new),
             }
@@ -266,7 +277,7 @@ impl Draw<'_> {
             label: Some("opaque"),
             color_attachments: &[
                 attachment(&self.targets.color, LoadOp::Clear(wgpu::Color { r, g, b, a: 1.0 })),
-                attachment(&self.targets.opaque_depth, LoadOp::Clear(wgpu::Color::WHITE)),
+                attachment(&self.targets.opaque_depth, LoadOp::Clear(FARTHEST)),
             ],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &self.targets.depth,

@@ -33,11 +33,11 @@ const NOWHERE: vec4<f32> = vec4<f32>(0.0, 0.0, 2.0, 1.0);
 
 struct Opaque {
     @location(0) color: vec4<f32>,
-    @location(1) depth: f32,
+    @location(1) depth: u32,   // the bits of a number in 0..=1, which order as the number does
 }
 
 fn opaque(color: vec4<f32>, position: vec4<f32>) -> Opaque {
-    return Opaque(vec4<f32>(color.rgb, 1.0), position.z);
+    return Opaque(vec4<f32>(color.rgb, 1.0), bitcast<u32>(position.z));
 }
 
 // The exploded position in camera axes.

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 /// The renderer, or `None` with a message when this machine has no adapter. With `LAR_REQUIRE_GPU=1`, as in CI, a
 /// missing adapter fails the test.
+#[expect(clippy::print_stderr, reason = "a test that cannot run says so")]
 pub(crate) fn renderer() -> Option<OffscreenRenderer> {
     match OffscreenRenderer::new() {
         Ok(renderer) => Some(renderer),
