@@ -1,6 +1,6 @@
 //! The result: a chain complex with everything that is known of its cells.
 
-use crate::kernel::{Geometry, Vertex};
+use crate::kernel::{Geometry, Vertex, VertexDef};
 use crate::soup::Parent;
 use crate::stats::Stats;
 use crate::winding::{Closure, Windings};
@@ -26,6 +26,10 @@ pub struct Arrangement {
     pub(crate) n_shells: u32,
     pub(crate) parents: Vec<Parent>,
     pub(crate) parent_offsets: Vec<u32>,
+    /// A facet with the plane and orientation of each face.
+    pub(crate) facet_of_face: Vec<u32>,
+    /// Faces with equal numbers are pieces of one polygon that is meant to be planar.
+    pub(crate) plane_of_face: Vec<u32>,
     pub(crate) windings: Windings,
     pub(crate) solids: Vec<SolidInfo>,
     pub(crate) vertices: Vec<Vertex>,
@@ -39,6 +43,17 @@ pub(crate) struct SolidInfo {
     pub name: String,
     /// Coefficient of each face in the boundary of the solid.
     pub coefficients: Vec<i8>,
+}
+
+/// What a vertex is by definition; its position follows from that.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum VertexKind {
+    /// A point of the input, on the grid.
+    Input,
+    /// The intersection of an input edge with the plane of a face, or with another edge of its plane.
+    EdgeCrossing,
+    /// The intersection of the planes of three faces.
+    PlaneCrossing,
 }
 
 /// A directed edge of a face's loop.
@@ -122,6 +137,16 @@ impl Arrangement {
         let start = 2 * (h / 2) as usize;
         // Columns of ∂1 hold the smaller vertex first.
         self.complex.boundary(1).indices()[start + (h % 2) as usize]
+    }
+
+    /// What a vertex is by definition.
+    #[must_use]
+    pub fn vertex_kind(&self, vertex: VertexId) -> VertexKind {
+        match self.vertices[vertex.index()].def {
+            VertexDef::Grid(_) => VertexKind::Input,
+            VertexDef::EdgePlane { .. } => VertexKind::EdgeCrossing,
+            VertexDef::Facets(_) => VertexKind::PlaneCrossing,
+        }
     }
 
     /// The ends of an edge, the smaller first.

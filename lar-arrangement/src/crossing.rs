@@ -221,7 +221,7 @@ fn push_corner(geometry: &Geometry, stops: &mut Vec<Stop>, p: u32, toggles: [boo
     match stops.iter_mut().find(|s| s.vertex.def == def) {
         Some(stop) => (0..2).for_each(|k| stop.toggles[k] ^= toggles[k]),
         None => {
-            stops.push(Stop { vertex: geometry.grid_vertex(p), edge: NO_EDGE, toggles, gap: Gap::Outside })
+            stops.push(Stop { vertex: geometry.grid_vertex(p), edge: NO_EDGE, toggles, gap: Gap::Outside });
         }
     }
 }
@@ -328,7 +328,7 @@ fn record_point(
             Place::OnEdge(edge) => out.splits.push((edge, v)),
             // Inside this facet with nothing of the other one on either side along ℓ: they only touch.
             Place::Inside if gaps.iter().all(|g| g[1 - k] == Gap::Outside) => {
-                out.touches.push((facets[k], v))
+                out.touches.push((facets[k], v));
             }
             _ => {}
         }

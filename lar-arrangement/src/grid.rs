@@ -7,6 +7,9 @@
 /// Coordinates on the grid stay within ±2^BITS.
 pub(crate) const BITS: i32 = 40;
 
+/// The grid's origin lies within 2^OFFSET_BITS steps of 0.
+const OFFSET_BITS: i32 = 94;
+
 /// A power-of-two grid fitted to a bounding box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Grid {
@@ -32,8 +35,10 @@ impl Grid {
         }
         let reach =
             |o: [f64; 3]| (0..3).map(|k| (hi[k] - o[k]).abs().max((lo[k] - o[k]).abs())).fold(0.0, f64::max);
-        // Moving the origin onto the grid may need one more bit: the exponent is taken with room for it.
-        let exponent = exponent_above(reach(origin)) - BITS;
+        // Neighbouring f64 are 2^-53 of their size apart: a finer step than 2^-40 of that has no use, and the origin
+        // stays below 2^OFFSET_BITS steps.
+        let finest = exponent_above(reach([0.0; 3])) - OFFSET_BITS;
+        let exponent = (exponent_above(reach(origin)) - BITS).max(finest);
         let mut grid = Self { exponent, origin: [0.0; 3] };
         for (at, o) in grid.origin.iter_mut().zip(origin) {
             *at = scaled(scaled(o, -exponent).round(), exponent);

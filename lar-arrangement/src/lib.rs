@@ -1,33 +1,42 @@
 //! Exact arrangements of polygonal surfaces as chain complexes, and Booleans over their 3-cells.
 
 mod arrangement;
+mod boolean;
 mod boxes;
 mod check;
 mod coplanar;
 mod crossing;
 mod dissolve;
 mod error;
+mod expression;
 mod fragment;
 mod grid;
 mod interner;
 mod kernel;
 mod measure;
+mod merge;
 mod nest;
 mod parallel;
 mod pipeline;
 mod polygon;
+mod simplify;
 mod skeleton;
 mod soup;
 mod split;
 mod stats;
 mod subdivision;
+mod trace;
 mod union_find;
 mod winding;
 mod wrap;
 
-pub use arrangement::{Arrangement, HalfEdge};
+pub use arrangement::{Arrangement, HalfEdge, VertexKind};
+pub use boolean::{BooleanError, FillRule, Solid};
 pub use error::ArrangementError;
+pub use expression::{Expression, ExpressionError, operand_names};
 pub use pipeline::{Arranger, Checks, arrange};
+pub use simplify::{Detail, SolidComplex};
 pub use soup::Parent;
 pub use stats::Stats;
+pub use trace::{FaceSide, WrapStep};
 pub use winding::Closure;

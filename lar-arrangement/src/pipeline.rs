@@ -9,6 +9,7 @@ use crate::dissolve::{self, Dissolved};
 use crate::error::ArrangementError;
 use crate::fragment::{Fragmenter, Fragments};
 use crate::interner::Interner;
+use crate::merge::Merged;
 use crate::nest::Nesting;
 use crate::parallel;
 use crate::skeleton::Skeleton;
@@ -252,12 +253,14 @@ fn assemble(
     };
     let windings = Windings::new(shells.n_cells as usize, surfaces.len(), &cells_of_face, jumps);
     watch.lap(&mut stats, "membership");
-    let vertices: Vec<_> = dissolved.vertices.iter().map(|&v| skeleton.vertices[v as usize]).collect();
+    let plane_of_face = dissolved.old_face.iter().map(|&f| soup.plane_class(skeleton.facet(f))).collect();
+    let facet_of_face = dissolved.old_face.iter().map(|&f| skeleton.facet(f)).collect();
+    let vertices: Vec<_> = dissolved.merged.vertices.iter().map(|&v| skeleton.vertices[v as usize]).collect();
     let complex = ChainComplex::new(
         positions(&soup, &vertices),
         vec![
-            boundary_1(vertices.len(), &dissolved.edges),
-            boundary_2(dissolved.edges.len(), &dissolved),
+            boundary_1(vertices.len(), &dissolved.merged.edges),
+            boundary_2(dissolved.merged.edges.len(), &dissolved.merged),
             boundary_3(&cells_of_face, shells.n_cells as usize),
         ],
     );
@@ -270,14 +273,16 @@ fn assemble(
     stats.exact_fallbacks = soup.geometry.counters.exact();
     Arrangement {
         complex,
-        loops: dissolved.loops,
-        face_loops: dissolved.face_loops,
+        loops: dissolved.merged.loops,
+        face_loops: dissolved.merged.face_loops,
         rings,
         cells_of_face,
         shells_of_face,
         n_shells: shells.n,
         parents,
         parent_offsets,
+        facet_of_face,
+        plane_of_face,
         windings,
         solids: surfaces
             .iter()
@@ -330,21 +335,19 @@ fn positions(soup: &Soup, vertices: &[crate::kernel::Vertex]) -> Points {
     Points::from_columns(3, coords)
 }
 
-fn boundary_1(n_vertices: usize, edges: &[[u32; 2]]) -> lar_core::Operator {
+pub(crate) fn boundary_1(n_vertices: usize, edges: &[[u32; 2]]) -> lar_core::Operator {
     let signs = edges.iter().flat_map(|_| [-1, 1]).collect();
     ChainComplex::operator_from_columns(n_vertices, Cells::uniform(2, edges.as_flattened().to_vec()), signs)
 }
 
-fn boundary_2(n_edges: usize, dissolved: &Dissolved) -> lar_core::Operator {
-    let mut columns = Cells::with_capacity(dissolved.old_face.len(), dissolved.loops.indices().len());
-    let mut signs = Vec::with_capacity(dissolved.loops.indices().len());
+pub(crate) fn boundary_2(n_edges: usize, faces: &Merged) -> lar_core::Operator {
+    let mut columns = Cells::with_capacity(faces.face_loops.len() - 1, faces.loops.indices().len());
+    let mut signs = Vec::with_capacity(faces.loops.indices().len());
     let (mut column, mut edges): (Vec<(u32, i8)>, Vec<u32>) = (Vec::new(), Vec::new());
-    for range in dissolved.face_loops.windows(2) {
+    for range in faces.face_loops.windows(2) {
         column.clear();
         for l in range[0]..range[1] {
-            column.extend(
-                dissolved.loops[l as usize].iter().map(|&h| (h / 2, if h % 2 == 0 { 1 } else { -1 })),
-            );
+            column.extend(faces.loops[l as usize].iter().map(|&h| (h / 2, if h % 2 == 0 { 1 } else { -1 })));
         }
         column.sort_unstable();
         edges.clear();
@@ -384,12 +387,12 @@ fn boundary_3(cells_of_face: &[[u32; 2]], n_cells: usize) -> lar_core::Operator 
 
 /// The rings of the remaining edges in terms of the new faces.
 fn new_rings(rings: &Cells, dissolved: &Dissolved) -> Cells {
-    let mut out = Cells::with_capacity(dissolved.edges.len(), rings.indices().len());
+    let mut out = Cells::with_capacity(dissolved.merged.edges.len(), rings.indices().len());
     let mut ring = Vec::new();
-    for &h in &dissolved.old_half_edge {
+    for &h in &dissolved.merged.old_half_edge {
         ring.clear();
         let against = h % 2;
-        let entry = |&old: &u32| 2 * dissolved.new_face[(old / 2) as usize] + (old % 2 ^ against);
+        let entry = |&old: &u32| 2 * dissolved.new_face[(old / 2) as usize] + ((old % 2) ^ against);
         if against == 0 {
             ring.extend(rings[(h / 2) as usize].iter().map(entry));
         } else {

@@ -36,6 +36,8 @@ pub(crate) struct Soup {
     /// The polygon that each facet is (a piece of).
     pub facet_polygon: Vec<u32>,
     pub polygon_parents: Vec<Vec<Parent>>,
+    /// Whether a polygon is planar, exactly or within the tolerance.
+    pub polygon_flat: Vec<bool>,
     /// Coefficient of each surface's faces in the boundary of its solid.
     pub coefficients: Vec<Vec<i8>>,
     /// Input faces without an inside (all corners on one line after snapping).
@@ -61,6 +63,7 @@ impl Soup {
                 facet_edges: Cells::new(),
                 facet_polygon: Vec::new(),
                 polygon_parents: Vec::new(),
+                polygon_flat: Vec::new(),
                 coefficients: Vec::new(),
                 degenerate: 0,
                 triangulated: 0,
@@ -87,6 +90,12 @@ impl Soup {
     pub(crate) fn directed(&self, edge: u32) -> [u32; 2] {
         let [a, b] = self.edges[(edge / 2) as usize];
         if edge.is_multiple_of(2) { [a, b] } else { [b, a] }
+    }
+
+    /// A number that is equal for facets of one polygon that is meant to be planar.
+    pub(crate) fn plane_class(&self, facet: u32) -> u32 {
+        let polygon = self.facet_polygon[facet as usize];
+        if self.polygon_flat[polygon as usize] { polygon } else { self.polygon_flat.len() as u32 + facet }
     }
 
     /// Parents of a facet.
@@ -182,10 +191,11 @@ impl Builder {
             return;
         }
         let polygon = self.soup.polygon_parents.len() as u32;
-        if !self.push_polygon(&loops, polygon) {
+        let Some(flat) = self.push_polygon(&loops, polygon) else {
             self.soup.degenerate += 1;
             return;
-        }
+        };
+        self.soup.polygon_flat.push(flat);
         self.soup.polygon_parents.push(Vec::with_capacity(1));
         self.push_parent(polygon, solid, face, 1);
         match key.as_slice() {
@@ -202,21 +212,21 @@ impl Builder {
         });
     }
 
-    /// Adds the facets of a polygon; false when it has no inside.
-    fn push_polygon(&mut self, loops: &[Vec<u32>], polygon: u32) -> bool {
+    /// Adds the facets of a polygon, and tells whether it counts as planar; `None` when it has no inside.
+    fn push_polygon(&mut self, loops: &[Vec<u32>], polygon: u32) -> Option<bool> {
         let views: Vec<&[u32]> = loops.iter().map(Vec::as_slice).collect();
         let shape = Polygon { points: &self.soup.geometry.points, loops: &views };
         match shape.shape() {
             Shape::Planar { base } => {
                 let edges = loops.iter().flat_map(|l| (0..l.len()).map(|i| [l[i], l[(i + 1) % l.len()]]));
                 self.push_facet(base, edges, polygon, |_| false);
-                true
+                Some(true)
             }
             Shape::Triangles(triangles) => {
                 let flat = shape.deviation() <= self.flatness;
-                self.push_triangles(loops, &triangles, polygon, flat)
+                self.push_triangles(loops, &triangles, polygon, flat).then_some(flat)
             }
-            Shape::Degenerate => false,
+            Shape::Degenerate => None,
         }
     }
 

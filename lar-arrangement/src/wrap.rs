@@ -89,13 +89,13 @@ pub(crate) fn turn(a: u32, b: u32, edge: u32, skeleton: &Skeleton, geometry: &Ge
         return Sign::Zero;
     }
     let sign = geometry.turn_about(f, g, &skeleton.directions[edge as usize]);
-    if (a ^ b) % 2 == 0 { sign } else { -sign }
+    if (a ^ b).is_multiple_of(2) { sign } else { -sign }
 }
 
 /// For two faces in one plane: whether they lie on opposite sides of their edge.
 fn opposite(a: u32, b: u32, skeleton: &Skeleton, geometry: &Geometry) -> bool {
     let same_way = geometry.same_way(skeleton.facet(a / 2), skeleton.facet(b / 2));
-    same_way != ((a ^ b) % 2 == 0)
+    same_way != (a ^ b).is_multiple_of(2)
 }
 
 /// Shell of each face side (2f front, 2f + 1 back), numbered by the first side in them, and their number.

@@ -22,6 +22,8 @@ mod double;
 mod int;
 mod point;
 mod predicates;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use int::Int;
 pub(crate) use point::Plane;

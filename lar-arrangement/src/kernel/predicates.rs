@@ -130,6 +130,11 @@ impl Geometry {
         self.bases[facet as usize].contains(&p)
     }
 
+    /// The three corners that define the facet's plane.
+    pub(crate) fn base(&self, facet: u32) -> [u32; 3] {
+        self.bases[facet as usize]
+    }
+
     /// The facet's normal, rounded.
     pub(crate) fn normal(&self, facet: u32) -> [f64; 3] {
         self.planes[facet as usize].normal
@@ -320,10 +325,9 @@ impl Geometry {
         let mut det = 0.0;
         let mut magnitude = 0.0;
         let mut reach = 0.0;
-        for k in 0..3 {
-            let [p, q] = products[k];
-            det += (p - q) * d.float[k];
-            magnitude += (p.abs() + q.abs()) * d.float[k].abs();
+        for ([p, q], along) in products.into_iter().zip(d.float) {
+            det += (p - q) * along;
+            magnitude += (p.abs() + q.abs()) * along.abs();
             reach += p.abs() + q.abs();
         }
         if det.abs() > magnitude * 2f64.powi(-49) + reach * d.error * 1.5 {

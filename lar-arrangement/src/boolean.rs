@@ -1,0 +1,189 @@
+//! Stage 6b: Boolean expressions. Every 3-cell has a bit for each solid; the expression is evaluated on the bits,
+//! and the cells where it holds are a 3-chain whose boundary ∂3 · chain is the surface of the result.
+
+use crate::arrangement::Arrangement;
+use crate::expression::Expression;
+use crate::winding::Closure;
+use lar_core::{CellId, Chain, FaceId};
+
+/// How a winding number makes a point inside or outside.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FillRule {
+    /// Inside where the winding number is odd.
+    EvenOdd,
+    /// Inside where it is not zero.
+    #[default]
+    NonZero,
+    /// Inside where it is above zero: surfaces turned inside out bound nothing.
+    Positive,
+}
+
+impl FillRule {
+    /// Whether a winding number means inside.
+    #[must_use]
+    pub fn is_inside(self, winding: i32) -> bool {
+        match self {
+            FillRule::EvenOdd => winding % 2 != 0,
+            FillRule::NonZero => winding != 0,
+            FillRule::Positive => winding > 0,
+        }
+    }
+}
+
+/// Why a Boolean was refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BooleanError {
+    /// An operand that bounds nothing.
+    #[error(
+        "{solid}: the surface is open, it bounds no solid: {n_edges} boundary edges, one of them from ({}) to ({})",
+        join(&.edge[0]), join(&.edge[1])
+    )]
+    Open {
+        /// Name of the operand.
+        solid: String,
+        /// Number of boundary edges in the arrangement.
+        n_edges: usize,
+        /// Ends of one of them.
+        edge: [[f64; 3]; 2],
+    },
+    /// An operand whose faces are not oriented consistently, with a fill rule that needs it.
+    #[error(
+        "{solid}: the faces are not oriented consistently, only the even-odd fill rule can tell its inside"
+    )]
+    Unoriented {
+        /// Name of the operand.
+        solid: String,
+    },
+    /// An expression that names more solids than there are.
+    #[error("the expression names solid number {solid}, there are {n_solids}")]
+    NoSuchSolid {
+        /// Number of the solid, from 0.
+        solid: usize,
+        /// How many there are.
+        n_solids: usize,
+    },
+}
+
+fn join(p: &[f64; 3]) -> String {
+    format!("{}, {}, {}", p[0], p[1], p[2])
+}
+
+/// A union of 3-cells of an arrangement.
+#[derive(Clone, Debug)]
+pub struct Solid<'a> {
+    pub(crate) arrangement: &'a Arrangement,
+    inside: Vec<bool>,
+    cells: Vec<CellId>,
+}
+
+impl Arrangement {
+    /// Whether a cell is inside an input solid. Never for open surfaces.
+    #[must_use]
+    pub fn is_inside(&self, cell: CellId, solid: usize, rule: FillRule) -> bool {
+        rule.is_inside(self.winding(cell, solid))
+    }
+
+    /// The cells where an expression holds.
+    ///
+    /// ```
+    /// use lar_arrangement::{arrange, Expression, FillRule};
+    /// use lar_core::{cuboid_grid, t, Struct};
+    /// let cube = cuboid_grid(&[1, 1, 1]);
+    /// let scene = Struct::new("two cubes").with(cube.clone()).with(t(&[0.5, 0.5, 0.5])).with(cube);
+    /// let surfaces: Vec<_> = scene.eval_struct()?.iter().map(|m| m.to_surface()).collect::<Result<_, _>>()?;
+    /// let arrangement = arrange(&surfaces)?;
+    /// let difference = arrangement.boolean(&Expression::parse("A - B", &["A", "B"])?, FillRule::NonZero)?;
+    /// assert_eq!(difference.volume(), 0.875);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// An operand of the expression that is open, or not oriented with a rule that needs it, or does not exist.
+    #[doc(alias = "bool3d")]
+    pub fn boolean(&self, expression: &Expression, rule: FillRule) -> Result<Solid<'_>, BooleanError> {
+        for solid in expression.operands() {
+            self.check_operand(solid, rule)?;
+        }
+        let mut stack = Vec::new();
+        let inside: Vec<bool> = (0..self.n_cells() as u32)
+            .map(|cell| {
+                let is_inside = |solid| self.is_inside(CellId(cell), solid, rule);
+                expression.evaluate_with(&mut stack, is_inside)
+            })
+            .collect();
+        Ok(self.solid(inside))
+    }
+
+    fn check_operand(&self, solid: usize, rule: FillRule) -> Result<(), BooleanError> {
+        if solid >= self.n_solids() {
+            return Err(BooleanError::NoSuchSolid { solid, n_solids: self.n_solids() });
+        }
+        let name = || self.solid_name(solid).to_owned();
+        match self.closure(solid) {
+            Closure::Closed => Ok(()),
+            Closure::Unoriented if rule == FillRule::EvenOdd => Ok(()),
+            Closure::Unoriented => Err(BooleanError::Unoriented { solid: name() }),
+            Closure::Open => {
+                let edges = self.open_edges(solid);
+                let at = |v: lar_core::VertexId| self.complex.points().xyz(v.index());
+                let edge = edges.first().map_or([[f64::NAN; 3]; 2], |&e| self.edge(e).map(at));
+                Err(BooleanError::Open { solid: name(), n_edges: edges.len(), edge })
+            }
+        }
+    }
+
+    /// The union of the cells for which `inside` holds.
+    fn solid(&self, inside: Vec<bool>) -> Solid<'_> {
+        let cells = (0..).map(CellId).zip(&inside).filter(|(_, inside)| **inside).map(|(c, _)| c).collect();
+        Solid { arrangement: self, inside, cells }
+    }
+}
+
+impl Solid<'_> {
+    /// The cells.
+    #[must_use]
+    pub fn cells(&self) -> &[CellId] {
+        &self.cells
+    }
+
+    /// Whether the exterior is not part of it.
+    #[must_use]
+    pub fn is_bounded(&self) -> bool {
+        !self.inside.first().is_some_and(|exterior| *exterior)
+    }
+
+    /// The cells as a chain.
+    #[must_use]
+    pub fn chain(&self) -> Chain {
+        let n = self.inside.len();
+        Chain::new(3, n, self.cells.iter().map(|c| (c.0, 1))).expect("the cells are those of the arrangement")
+    }
+
+    /// The faces of its surface: ∂3 · chain. The sign is +1 where the face's normal points out of it.
+    pub fn boundary(&self) -> impl Iterator<Item = (FaceId, i8)> + '_ {
+        (0..).map(FaceId).zip(&self.arrangement.cells_of_face).filter_map(|(face, cells)| {
+            match cells.map(|c| self.inside[c as usize]) {
+                [false, true] => Some((face, 1)),
+                [true, false] => Some((face, -1)),
+                _ => None,
+            }
+        })
+    }
+
+    /// Volume; infinite when the exterior is part of it.
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        if !self.is_bounded() {
+            return f64::INFINITY;
+        }
+        let volumes = self.arrangement.volumes();
+        self.cells.iter().map(|c| volumes[c.index()]).sum()
+    }
+
+    /// Area of its surface.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        self.boundary().map(|(face, _)| self.arrangement.area(face)).sum()
+    }
+}

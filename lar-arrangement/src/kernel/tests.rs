@@ -1,0 +1,596 @@
+//! Every predicate against arbitrary-precision rationals, on random and on degenerate input, and the bit budget on
+//! the inputs that reach its bounds.
+
+use super::point::HPoint;
+use super::*;
+use dashu_int::IBig;
+use std::cmp::Ordering;
+
+const LIMIT: i64 = 1 << 40;
+
+/// SplitMix64 (Steele, Lea, Flood 2014).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn below(&mut self, n: usize) -> usize {
+        (self.next() % n as u64) as usize
+    }
+
+    /// Uniform in −reach..=reach.
+    fn within(&mut self, reach: i64) -> i64 {
+        (self.next() % (2 * reach as u64 + 1)) as i64 - reach
+    }
+
+    fn point(&mut self, reach: i64) -> [i64; 3] {
+        std::array::from_fn(|_| self.within(reach))
+    }
+
+    /// `n` points of one of seven kinds, from general position to nearly collinear at the end of the range.
+    fn points(&mut self, n: usize) -> Vec<[i64; 3]> {
+        let (kind, origin, steps) =
+            (self.below(7), self.point(LIMIT / 2), [self.point(LIMIT / 64), self.point(LIMIT / 64)]);
+        (0..n)
+            .map(|_| match kind {
+                0 => self.point(LIMIT),
+                1 => self.point(2),
+                2 => self.point(1000),
+                3 => std::array::from_fn(|_| [-LIMIT, LIMIT, LIMIT - 1, 0, 1][self.below(5)]),
+                4 => origin.map(|x| x + self.within(3)),
+                5 => self.near_lattice(origin, &steps),
+                _ => self.near_lattice(origin, &steps[..1]),
+            })
+            .collect()
+    }
+
+    /// The origin plus small multiples of the steps, moved by one unit every fourth time.
+    fn near_lattice(&mut self, origin: [i64; 3], steps: &[[i64; 3]]) -> [i64; 3] {
+        let mut p = origin;
+        for step in steps {
+            let times = self.within(6);
+            (0..3).for_each(|k| p[k] += times * step[k]);
+        }
+        if self.below(4) == 0 {
+            p[self.below(3)] += [-1, 1][self.below(2)];
+        }
+        p
+    }
+}
+
+type Big3 = [IBig; 3];
+
+fn big(p: [i64; 3]) -> Big3 {
+    p.map(IBig::from)
+}
+
+fn cross(a: &Big3, b: &Big3) -> Big3 {
+    let minor = |u: usize, v: usize| &a[u] * &b[v] - &a[v] * &b[u];
+    [minor(1, 2), minor(2, 0), minor(0, 1)]
+}
+
+fn dot(a: &Big3, b: &Big3) -> IBig {
+    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
+}
+
+fn minus(a: &Big3, b: &Big3) -> Big3 {
+    std::array::from_fn(|k| &a[k] - &b[k])
+}
+
+fn sign(x: &IBig) -> Sign {
+    Sign::from(x.cmp(&IBig::ZERO))
+}
+
+/// A rational point x / w, w > 0.
+#[derive(Clone, Debug)]
+struct Exact {
+    x: Big3,
+    w: IBig,
+}
+
+impl Exact {
+    fn new(x: Big3, w: IBig) -> Self {
+        if w < IBig::ZERO { Self { x: x.map(|x| -x), w: -w } } else { Self { x, w } }
+    }
+
+    fn is_within_range(&self) -> bool {
+        let bound = &self.w * IBig::from(LIMIT);
+        self.x.iter().all(|x| -&bound <= *x && *x <= bound)
+    }
+
+    fn cmp(&self, other: &Self, axis: usize) -> Ordering {
+        (&self.x[axis] * &other.w).cmp(&(&other.x[axis] * &self.w))
+    }
+
+    fn midpoint(&self, other: &Self) -> Self {
+        let x = std::array::from_fn(|k| &self.x[k] * &other.w + &other.x[k] * &self.w);
+        Self { x, w: &self.w * &other.w * IBig::from(2) }
+    }
+}
+
+/// Points, facets and vertices of every kind, with what they are exactly.
+struct Scene {
+    geometry: Geometry,
+    n_facets: u32,
+    bases: Vec<[u32; 3]>,
+    supports: Vec<Support>,
+    vertices: Vec<(Vertex, Exact)>,
+    directions: Vec<(Direction, Big3)>,
+}
+
+impl Scene {
+    const POINTS: usize = 12;
+
+    fn new(seed: u64) -> Self {
+        let random = &mut Random(seed);
+        let mut scene = Self {
+            geometry: Geometry::new(random.points(Self::POINTS)),
+            n_facets: 0,
+            bases: Vec::new(),
+            supports: Vec::new(),
+            vertices: Vec::new(),
+            directions: Vec::new(),
+        };
+        scene.push_supports(random);
+        scene.push_vertices(random);
+        scene.push_directions(random);
+        scene
+    }
+
+    fn corner(&self, p: u32) -> Big3 {
+        big(self.geometry.points[p as usize])
+    }
+
+    fn push_supports(&mut self, random: &mut Random) {
+        for _ in 0..20 {
+            let base = [0; 3].map(|_| random.below(Self::POINTS) as u32);
+            let [a, b, c] = base.map(|p| self.corner(p));
+            if self.n_facets < 8 && cross(&minus(&b, &a), &minus(&c, &a)) != [IBig::ZERO; 3] {
+                self.geometry.push_facet(base);
+                self.bases.push(base);
+                self.supports.push(Support::Facet(self.n_facets));
+                self.n_facets += 1;
+            }
+        }
+        for _ in 0..4 {
+            let ends = [0; 2].map(|_| random.below(Self::POINTS) as u32);
+            let support = Support::Vertical { ends, axis: random.below(3) as u8 };
+            if self.plane(support).0 != [IBig::ZERO; 3] {
+                self.supports.push(support);
+            }
+        }
+    }
+
+    /// n and d of the plane n · x = d, from the definition of the support.
+    fn plane(&self, support: Support) -> (Big3, IBig) {
+        let (a, n) = match support {
+            Support::Facet(f) => {
+                let [a, b, c] = self.bases[f as usize].map(|p| self.corner(p));
+                let n = cross(&minus(&b, &a), &minus(&c, &a));
+                (a, n)
+            }
+            Support::Vertical { ends, axis } => {
+                let [a, b] = ends.map(|p| self.corner(p));
+                let up = std::array::from_fn(|k| IBig::from(i64::from(k == axis as usize)));
+                let n = cross(&up, &minus(&b, &a));
+                (a, n)
+            }
+        };
+        let d = dot(&n, &a);
+        (n, d)
+    }
+
+    fn side(&self, p: &Exact, support: Support) -> Sign {
+        let (n, d) = self.plane(support);
+        sign(&(dot(&n, &p.x) - d * &p.w))
+    }
+
+    fn grid(&self, p: u32) -> Exact {
+        Exact { x: self.corner(p), w: IBig::ONE }
+    }
+
+    fn push_vertices(&mut self, random: &mut Random) {
+        for _ in 0..6 {
+            let p = random.below(Self::POINTS) as u32;
+            self.vertices.push((self.geometry.grid_vertex(p), self.grid(p)));
+        }
+        for _ in 0..24 {
+            if let Some(&support) = self.supports.get(random.below(self.supports.len().max(1))) {
+                self.push_edge_vertex([0; 2].map(|_| random.below(Self::POINTS) as u32), support);
+            }
+        }
+        for _ in 0..8 {
+            if self.n_facets > 2 {
+                self.push_facets_vertex([0; 3].map(|_| random.below(self.n_facets as usize) as u32));
+            }
+        }
+    }
+
+    /// p + s (q − p), s = side(p) / (side(p) − side(q)).
+    fn push_edge_vertex(&mut self, ends: [u32; 2], support: Support) {
+        let [p, q] = ends.map(|p| self.grid(p));
+        if self.side(&p, support).times(self.side(&q, support)) == Sign::Negative {
+            let (n, d) = self.plane(support);
+            let (at_p, at_q) = (dot(&n, &p.x) - &d, dot(&n, &q.x) - &d);
+            let w = &at_p - at_q;
+            let x = std::array::from_fn(|k| &p.x[k] * &w + &at_p * (&q.x[k] - &p.x[k]));
+            self.vertices.push((self.geometry.edge_vertex(ends, support), Exact::new(x, w)));
+        }
+    }
+
+    /// Cramer's rule, column by column.
+    fn push_facets_vertex(&mut self, facets: [u32; 3]) {
+        let planes = facets.map(|f| self.plane(Support::Facet(f)));
+        let det = |column: Option<usize>| {
+            let rows = planes.clone().map(|(mut n, d)| {
+                if let Some(k) = column {
+                    n[k] = d;
+                }
+                n
+            });
+            dot(&rows[0], &cross(&rows[1], &rows[2]))
+        };
+        let w = det(None);
+        if w != IBig::ZERO {
+            let exact = Exact::new(std::array::from_fn(|k| det(Some(k))), w);
+            // Vertices of an arrangement lie within the box of its input.
+            if exact.is_within_range() {
+                self.vertices.push((self.geometry.facets_vertex(facets), exact));
+            }
+        }
+    }
+
+    fn push_directions(&mut self, random: &mut Random) {
+        for _ in 0..5 {
+            let ends = [0; 2].map(|_| random.below(Self::POINTS) as u32);
+            let exact = minus(&self.corner(ends[1]), &self.corner(ends[0]));
+            self.push_direction(Along::Edge(ends), exact, random);
+        }
+        for _ in 0..8 {
+            if self.n_facets > 1 {
+                let facets = [0; 2].map(|_| random.below(self.n_facets as usize) as u32);
+                let [m, n] = facets.map(|f| self.plane(Support::Facet(f)).0);
+                self.push_direction(Along::Facets(facets), cross(&m, &n), random);
+            }
+        }
+    }
+
+    fn push_direction(&mut self, along: Along, exact: Big3, random: &mut Random) {
+        if exact != [IBig::ZERO; 3] {
+            let direction = self.geometry.direction(along);
+            self.directions.push(if random.below(2) == 0 {
+                (direction, exact)
+            } else {
+                (direction.opposite(), exact.map(|x| -x))
+            });
+        }
+    }
+}
+
+/// Runs `test` on `n` scenes and returns the number of comparisons that it reports.
+fn on_scenes(n: u64, test: impl Fn(&Scene, u64) -> usize) -> usize {
+    (0..n).map(|seed| test(&Scene::new(seed), seed)).sum()
+}
+
+#[test]
+fn definitions_give_the_exact_points_and_round_correctly() {
+    let compared = on_scenes(30_000, |scene, seed| {
+        for (vertex, exact) in &scene.vertices {
+            let found = scene.geometry.exact_point(&vertex.def);
+            let (x, w) = (found.x.map(|x| to_big(&x)), to_big(&found.w));
+            assert!(w > IBig::ZERO, "seed {seed}: {:?} has the denominator {w}", vertex.def);
+            for k in 0..3 {
+                assert_eq!(&x[k] * &exact.w, &exact.x[k] * &w, "seed {seed}: {:?}, axis {k}", vertex.def);
+                check_rounding(&exact.x[k], &exact.w, vertex.at[k], seed);
+            }
+        }
+        scene.vertices.len()
+    });
+    assert!(compared > 300_000, "only {compared} vertices");
+}
+
+#[test]
+fn sides_of_planes() {
+    let compared = on_scenes(8_000, |scene, seed| {
+        for (vertex, exact) in &scene.vertices {
+            for &support in &scene.supports {
+                let found = scene.geometry.side(vertex, support);
+                let expected = scene.side(exact, support);
+                assert_eq!(found, expected, "seed {seed}: {:?} against {support:?}", vertex.def);
+            }
+        }
+        for p in 0..Scene::POINTS as u32 {
+            for f in 0..scene.n_facets {
+                let expected = scene.side(&scene.grid(p), Support::Facet(f));
+                assert_eq!(scene.geometry.side_of_point(p, f), expected, "seed {seed}: {p} against {f}");
+            }
+        }
+        scene.vertices.len() * scene.supports.len()
+    });
+    assert!(compared > 500_000, "only {compared} comparisons");
+}
+
+#[test]
+fn order_and_equality_of_vertices() {
+    let compared = on_scenes(4_000, |scene, seed| {
+        for (a, exact_a) in &scene.vertices {
+            for (b, exact_b) in &scene.vertices {
+                let orders = [0, 1, 2].map(|axis| exact_a.cmp(exact_b, axis));
+                for (axis, order) in orders.into_iter().enumerate() {
+                    let found = scene.geometry.cmp_coordinate(a, b, axis);
+                    assert_eq!(found, order, "seed {seed}: {:?} and {:?}, axis {axis}", a.def, b.def);
+                }
+                let equal = orders == [Ordering::Equal; 3];
+                assert_eq!(scene.geometry.coincide(a, b), equal, "seed {seed}: {:?}, {:?}", a.def, b.def);
+            }
+        }
+        scene.vertices.len().pow(2)
+    });
+    assert!(compared > 500_000, "only {compared} comparisons");
+}
+
+#[test]
+fn directions_turn_as_they_do_exactly() {
+    let compared = on_scenes(5_000, |scene, seed| {
+        let geometry = &scene.geometry;
+        for (d, exact) in &scene.directions {
+            let (axis, up) = geometry.axis_of(d);
+            assert_eq!(up, sign(&exact[axis]), "seed {seed}: axis {axis} of {:?}", d.along);
+            assert_ne!(up, Sign::Zero, "seed {seed}: axis {axis} of {:?}", d.along);
+            for k in 0..3 {
+                assert_eq!(geometry.component(d, k), sign(&exact[k]), "seed {seed}: {:?}, axis {k}", d.along);
+            }
+            for (e, other) in &scene.directions {
+                for (u, v) in [(0, 1), (1, 2), (2, 0), (1, 0)] {
+                    let expected = sign(&(&exact[u] * &other[v] - &exact[v] * &other[u]));
+                    let found = geometry.turn(d, e, u, v);
+                    assert_eq!(found, expected, "seed {seed}: {:?} to {:?}, axes {u} {v}", d.along, e.along);
+                }
+            }
+        }
+        scene.directions.len().pow(2) * 4
+    });
+    assert!(compared > 500_000, "only {compared} comparisons");
+}
+
+#[test]
+fn normals_turn_about_directions() {
+    let compared = on_scenes(2_500, |scene, seed| {
+        let geometry = &scene.geometry;
+        let normals: Vec<Big3> = (0..scene.n_facets).map(|f| scene.plane(Support::Facet(f)).0).collect();
+        for (n, f) in normals.iter().zip(0..) {
+            let (axis, up) = geometry.dominant_axis(f);
+            assert_eq!(Sign::from(if up { 1i8 } else { -1 }), sign(&n[axis]), "seed {seed}: facet {f}");
+            for k in 0..3 {
+                assert_eq!(geometry.normal_sign(f, k), sign(&n[k]), "seed {seed}: facet {f}, axis {k}");
+            }
+            for (m, g) in normals.iter().zip(0..) {
+                let about = cross(n, m);
+                if about == [IBig::ZERO; 3] {
+                    let same = dot(n, m) > IBig::ZERO;
+                    assert_eq!(geometry.same_way(f, g), same, "seed {seed}: facets {f}, {g}");
+                }
+                for (d, exact) in &scene.directions {
+                    let found = geometry.turn_about(f, g, d);
+                    assert_eq!(found, sign(&dot(&about, exact)), "seed {seed}: {f}, {g} about {:?}", d.along);
+                }
+            }
+        }
+        normals.len().pow(2) * scene.directions.len()
+    });
+    assert!(compared > 500_000, "only {compared} comparisons");
+}
+
+#[test]
+fn midpoints_order_and_orient() {
+    let compared = on_scenes(3_000, |scene, seed| {
+        let random = &mut Random(!seed);
+        let mut pick = || &scene.vertices[random.below(scene.vertices.len())];
+        for round in 0..60 {
+            let [(a, exact_a), (b, exact_b), (p, exact_p), (q, exact_q)] = std::array::from_fn(|_| pick());
+            // Every third time the midpoint of a vertex with itself.
+            let (b, exact_b) = if round % 3 == 0 { (a, exact_a) } else { (b, exact_b) };
+            let (m, exact_m) = (scene.geometry.midpoint(a, b), exact_a.midpoint(exact_b));
+            for axis in 0..3 {
+                let found = scene.geometry.cmp_with_midpoint(p, &m, axis);
+                let expected = exact_p.cmp(&exact_m, axis);
+                assert_eq!(found, expected, "seed {seed}: {:?}, {:?} {:?}", p.def, a.def, b.def);
+            }
+            for (u, v) in [(0, 1), (1, 2), (0, 2)] {
+                let found = scene.geometry.orientation(p, q, &m, u, v);
+                let row = |e: &Exact| [e.x[u].clone(), e.x[v].clone(), e.w.clone()];
+                let expected = sign(&dot(&row(exact_p), &cross(&row(exact_q), &row(&exact_m))));
+                assert_eq!(found, expected, "seed {seed}: {:?} {:?}, {:?} {:?}", p.def, q.def, a.def, b.def);
+            }
+        }
+        60 * 6
+    });
+    assert!(compared > 500_000, "only {compared} comparisons");
+}
+
+fn to_big<const N: usize>(x: &Int<N>) -> IBig {
+    let magnitude = x.magnitude().iter().rev().fold(IBig::ZERO, |sum, &limb| (sum << 64) + IBig::from(limb));
+    if x.sign() == Sign::Negative { -magnitude } else { magnitude }
+}
+
+/// x · 2^400 as an integer, for x a multiple of 2^-400.
+fn scaled_float(x: f64) -> IBig {
+    let bits = x.to_bits();
+    let (exponent, fraction) = ((bits >> 52 & 0x7ff) as i64, bits & ((1 << 52) - 1));
+    if exponent == 0 {
+        return IBig::ZERO;
+    }
+    let shift = exponent - 1075 + 400;
+    let magnitude = IBig::from(fraction | 1 << 52) << usize::try_from(shift).expect("not a tiny number");
+    if x < 0.0 { -magnitude } else { magnitude }
+}
+
+/// The quotient lies between the midpoints to the neighbours of the rounded value; on a midpoint the value is even.
+#[track_caller]
+fn check_rounding(numerator: &IBig, denominator: &IBig, rounded: f64, seed: u64) {
+    let twice = numerator << 401;
+    let bound = |x: f64| (scaled_float(rounded) + scaled_float(x)) * denominator;
+    if rounded == 0.0 {
+        assert_eq!(*numerator, IBig::ZERO, "seed {seed}");
+        return;
+    }
+    let (low, high) = (bound(rounded.next_down()), bound(rounded.next_up()));
+    let even = rounded.to_bits() & 1 == 0;
+    let holds = if even { low <= twice && twice <= high } else { low < twice && twice < high };
+    assert!(holds, "seed {seed}: {numerator} / {denominator} became {rounded:e}");
+}
+
+/// An integer of up to 290 bits: random, all ones, or a power of two.
+fn wide(random: &mut Random) -> Int<5> {
+    let bits = 1 + random.below(290) as u32;
+    let mut x = match random.below(3) {
+        0 => Int::from(1i64),
+        1 => Int::from(1i64).shifted(bits) - Int::from(1i64),
+        _ => (0..5).fold(Int::ZERO, |sum: Int<5>, _| {
+            // 58 bits a digit: five of them stay within 290.
+            sum.shifted(58) + Int::from((random.next() >> 6) as i64)
+        }),
+    };
+    if x.sign() == Sign::Zero {
+        x = Int::from(1i64);
+    }
+    x
+}
+
+#[test]
+fn quotients_round_to_nearest_even() {
+    for seed in 0..60_000 {
+        let random = &mut Random(seed);
+        let w = match random.below(3) {
+            0 => Int::from(1 + random.within(1 << 20).abs()),
+            _ => wide(random),
+        };
+        // A tie between two doubles, or just beside one: an odd number of 54 bits times the denominator.
+        let odd = Int::<5>::from((random.next() >> 10 | 1 << 53 | 1) as i64);
+        let tie = |random: &mut Random| {
+            if w.bits() + odd.bits() < 300 { w * odd + Int::from(random.within(1)) } else { wide(random) }
+        };
+        let x: [Int<5>; 3] = std::array::from_fn(|k| {
+            let x = if k == 0 { wide(random) } else { tie(random) };
+            if random.below(2) == 0 { -x } else { x }
+        });
+        let offset = [0; 3].map(|_| i128::from(random.within(i64::MAX / 2)) << random.below(30));
+        let point = HPoint { x, w };
+        let (at, moved) = (point.rounded(), point.rounded_after(offset));
+        let (x, w) = (x.map(|x| to_big(&x)), to_big(&w));
+        for k in 0..3 {
+            check_rounding(&x[k], &w, at[k], seed);
+            check_rounding(&(&x[k] + IBig::from(offset[k]) * &w), &w, moved[k], seed);
+        }
+    }
+}
+
+/// The largest magnitudes over all inputs. The quantities are affine in every single coordinate of the input, so
+/// they are largest at the corners of the cube of side 2^41; there, in units of 2^40, everything is a small integer.
+struct Maxima {
+    normal: i128,
+    side: i128,
+    line: [i128; 2],
+    direction: i128,
+    planes: [i128; 2],
+    planes_side: i128,
+}
+
+fn maxima() -> Maxima {
+    let corners: Vec<[i64; 3]> = (0..8).map(|c| [0, 1, 2].map(|k| 1 - 2 * (c >> k & 1))).collect();
+    let mut planes: Vec<Plane> = Vec::new();
+    for (a, b, c) in (0..512).map(|i| (corners[i / 64], corners[i / 8 % 8], corners[i % 8])) {
+        let plane = Plane::through(a, b, c);
+        if !planes.iter().any(|p| *p == plane) {
+            planes.push(plane);
+        }
+    }
+    let mut out = Maxima { normal: 0, side: 0, line: [0; 2], direction: 0, planes: [0; 2], planes_side: 0 };
+    let raise = |best: &mut i128, x: i128| *best = (*best).max(x.abs());
+    let det = |r: [[i128; 3]; 3]| {
+        let minor = |u: usize, v: usize| r[1][u] * r[2][v] - r[1][v] * r[2][u];
+        r[0][0] * minor(1, 2) + r[0][1] * minor(2, 0) + r[0][2] * minor(0, 1)
+    };
+    for p in &planes {
+        p.n.iter().for_each(|&n| raise(&mut out.normal, n));
+        for &a in &corners {
+            raise(&mut out.side, p.side(a).abs().max(p.d.abs()));
+            for &b in &corners {
+                let (at_a, at_b) = (p.side(a), p.side(b));
+                raise(&mut out.line[1], at_a - at_b);
+                (0..3).for_each(|k| {
+                    raise(&mut out.line[0], i128::from(b[k]) * at_a - i128::from(a[k]) * at_b);
+                });
+            }
+        }
+        for q in &planes {
+            for k in 0..3 {
+                let (u, v) = ((k + 1) % 3, (k + 2) % 3);
+                raise(&mut out.direction, p.n[u] * q.n[v] - p.n[v] * q.n[u]);
+            }
+            for r in &planes {
+                raise(&mut out.planes[1], det([p.n, q.n, r.n]));
+                let x = [0, 1, 2].map(|k| {
+                    det([p, q, r].map(|plane| {
+                        let mut row = plane.n;
+                        row[k] = plane.d;
+                        row
+                    }))
+                });
+                x.iter().for_each(|&x| raise(&mut out.planes[0], x));
+                let w = det([p.n, q.n, r.n]);
+                for s in &planes {
+                    raise(&mut out.planes_side, (0..3).map(|k| s.n[k] * x[k]).sum::<i128>() - s.d * w);
+                }
+            }
+        }
+    }
+    out
+}
+
+/// Bits of `units` · 2^(40 · degree).
+fn bits(units: i128, degree: u32) -> u32 {
+    40 * degree + (128 - units.leading_zeros())
+}
+
+/// The table of the module's header, and the widths in limbs that the predicates take.
+#[test]
+fn bit_budget_holds_at_the_extremes() {
+    let m = maxima();
+    let [x, w] = m.planes;
+    assert!(bits(m.normal, 2) <= 83);
+    assert!(bits(m.side, 3) <= 126);
+    assert!(bits(m.line[0], 4) <= 168 && bits(m.line[1], 3) <= 127);
+    assert!(bits(m.direction, 4) <= 168 && 168 <= 3 * 64);
+    assert!(bits(x, 7) <= 296 && bits(w, 6) <= 253 && 296 <= 5 * 64);
+    assert!(bits(m.planes_side, 9) <= 381 && 381 <= 11 * 64);
+    // Two terms: each is bounded by the product of the bounds.
+    assert!(bits(2 * x * w, 13) <= 551 && 551 <= 9 * 64);
+    assert!(bits(6 * x * x * w, 20) <= 848 && bits(12 * x * x * w * w, 26) <= 1103 && 1103 <= 18 * 64);
+}
+
+/// The same through the fixed-width integers themselves, which assert that nothing overflows.
+#[test]
+fn nothing_overflows_at_the_extremes() {
+    for seed in 0..3_000 {
+        let random = &mut Random(seed);
+        let points: Vec<[i64; 3]> =
+            (0..9).map(|_| std::array::from_fn(|_| [-LIMIT, LIMIT][random.below(2)])).collect();
+        let planes: Vec<Plane> = points
+            .chunks(3)
+            .map(|corners| Plane::through(corners[0], corners[1], corners[2]))
+            .filter(|plane| plane.n != [0; 3])
+            .collect();
+        let [a, b, c] = planes.as_slice() else { continue };
+        let Some(point) = HPoint::on_planes([a, b, c]) else { continue };
+        let middle = point.midpoint(&point);
+        assert!(point.equals(&point) && middle.w.sign() == Sign::Positive, "seed {seed}");
+        assert!([a, b, c].iter().all(|p| p.side_of(&point) == Sign::Zero), "seed {seed}");
+        assert!([a, b, c].iter().all(|p| p.scaled_side(&middle).sign() == Sign::Zero), "seed {seed}");
+    }
+}

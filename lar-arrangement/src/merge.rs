@@ -1,0 +1,274 @@
+//! Faces that become one when edges between them disappear, and edges that become one when vertices do. Used by
+//! stage 5b (soft edges) and by the simplification of Boolean results. Combinatorial: the caller decides what
+//! disappears.
+
+use lar_core::Cells;
+use rustc_hash::FxHashMap;
+
+/// Faces by their loops of half-edges, and edges by their ends.
+pub(crate) struct Faces<'a> {
+    /// Ends of each edge.
+    pub edges: &'a [[u32; 2]],
+    /// Half-edges (2 · edge, + 1 against its direction) of each loop.
+    pub loops: &'a Cells,
+    /// The loops of face f are `face_loops[f]..face_loops[f + 1]`.
+    pub face_loops: &'a [u32],
+}
+
+impl Faces<'_> {
+    pub(crate) fn n_faces(&self) -> usize {
+        self.face_loops.len() - 1
+    }
+
+    /// First and last vertex of a half-edge.
+    pub(crate) fn ends(&self, half_edge: u32) -> [u32; 2] {
+        let [a, b] = self.edges[(half_edge / 2) as usize];
+        if half_edge.is_multiple_of(2) { [a, b] } else { [b, a] }
+    }
+}
+
+/// The faces, edges and vertices that remain, in terms of the old ones.
+#[derive(Debug)]
+pub(crate) struct Merged {
+    /// Old vertex of each new one.
+    pub vertices: Vec<u32>,
+    /// Ends of each new edge, the smaller first.
+    pub edges: Vec<[u32; 2]>,
+    /// Old half-edge that is (part of) the new edge in its direction.
+    pub old_half_edge: Vec<u32>,
+    /// Half-edges of each loop.
+    pub loops: Cells,
+    /// The loops of face f are `face_loops[f]..face_loops[f + 1]`, the outer one first.
+    pub face_loops: Vec<u32>,
+}
+
+/// What disappears.
+pub(crate) struct Removal<'a> {
+    /// Edges; each stands in loops exactly twice, in opposite directions.
+    pub edges: &'a [bool],
+    /// New face of each old one.
+    pub new_face: &'a [u32],
+    pub n_new_faces: usize,
+    /// Vertices with exactly two remaining edges, which become one edge; with these two edges.
+    pub vertices: &'a FxHashMap<u32, [u32; 2]>,
+}
+
+/// Carries the removal out. `positions` are only used to tell a face's outer loop from its holes.
+pub(crate) fn merge(faces: &Faces, removal: &Removal, positions: impl Fn(u32) -> [f64; 3]) -> Merged {
+    let chains = Chains::new(faces, removal);
+    let by_face = remaining_loops(faces, removal);
+    let mut loops = Cells::with_capacity(faces.loops.len(), faces.loops.indices().len());
+    let mut face_loops = vec![0];
+    let mut one_loop = Vec::new();
+    for cycles in by_face {
+        let first = outer_first(&cycles, faces, &positions);
+        let order = first.into_iter().chain((0..cycles.len()).filter(|&i| Some(i) != first));
+        for i in order {
+            one_loop.clear();
+            one_loop.extend(cycles[i].iter().filter_map(|&h| chains.new_half_edge[h as usize]));
+            loops.push(&one_loop);
+        }
+        face_loops.push(loops.len() as u32);
+    }
+    Merged {
+        vertices: chains.vertices,
+        edges: chains.edges,
+        old_half_edge: chains.old_half_edge,
+        loops,
+        face_loops,
+    }
+}
+
+/// For candidate vertices: those with exactly two remaining edges, with these edges.
+pub(crate) fn with_two_edges(
+    edges: &[[u32; 2]],
+    removed: &[bool],
+    candidates: impl IntoIterator<Item = u32>,
+) -> FxHashMap<u32, [u32; 2]> {
+    let mut remaining: FxHashMap<u32, Vec<u32>> = candidates.into_iter().map(|v| (v, Vec::new())).collect();
+    if remaining.is_empty() {
+        return FxHashMap::default();
+    }
+    for ((ends, edge), _) in edges.iter().zip(0..).zip(removed).filter(|(_, removed)| !**removed) {
+        for v in ends {
+            if let Some(edges) = remaining.get_mut(v) {
+                edges.push(edge);
+            }
+        }
+    }
+    remaining.into_iter().filter_map(|(v, edges)| Some((v, edges.try_into().ok()?))).collect()
+}
+
+/// The loops of each new face as old half-edges: at a removed edge the walk goes on along the loop on its other
+/// side.
+fn remaining_loops(faces: &Faces, removal: &Removal) -> Vec<Vec<Vec<u32>>> {
+    let half_edges = faces.loops.indices();
+    let is_removed = |i: u32| removal.edges[(half_edges[i as usize] / 2) as usize];
+    let mut next = vec![0u32; half_edges.len()];
+    let mut at: FxHashMap<u32, u32> = FxHashMap::default();
+    for bounds in faces.loops.offsets().windows(2) {
+        for i in bounds[0]..bounds[1] {
+            next[i as usize] = if i + 1 == bounds[1] { bounds[0] } else { i + 1 };
+            if is_removed(i) {
+                at.insert(half_edges[i as usize], i);
+            }
+        }
+    }
+    let mut seen = vec![false; half_edges.len()];
+    let mut by_face: Vec<Vec<Vec<u32>>> = vec![Vec::new(); removal.n_new_faces];
+    let offsets = faces.loops.offsets();
+    for face in 0..faces.n_faces() {
+        for l in faces.face_loops[face]..faces.face_loops[face + 1] {
+            for start in offsets[l as usize]..offsets[l as usize + 1] {
+                let mut cycle = Vec::new();
+                let mut i = start;
+                while !seen[i as usize] && !is_removed(i) {
+                    seen[i as usize] = true;
+                    cycle.push(half_edges[i as usize]);
+                    i = next[i as usize];
+                    while is_removed(i) {
+                        i = next[at[&(half_edges[i as usize] ^ 1)] as usize];
+                    }
+                }
+                if !cycle.is_empty() {
+                    by_face[removal.new_face[face] as usize].push(cycle);
+                }
+            }
+        }
+    }
+    by_face
+}
+
+/// The outer one of several loops: it reaches farthest in every direction of the plane, so it wins along every
+/// axis on which the loops differ.
+fn outer_first(cycles: &[Vec<u32>], faces: &Faces, positions: impl Fn(u32) -> [f64; 3]) -> Option<usize> {
+    if cycles.len() < 2 {
+        return (!cycles.is_empty()).then_some(0);
+    }
+    let reaches: Vec<[f64; 6]> = cycles
+        .iter()
+        .map(|cycle| {
+            let mut reach = [f64::INFINITY; 6];
+            for p in cycle.iter().map(|&h| positions(faces.ends(h)[0])) {
+                for k in 0..3 {
+                    reach[k] = reach[k].min(p[k]);
+                    reach[k + 3] = reach[k + 3].min(-p[k]);
+                }
+            }
+            reach
+        })
+        .collect();
+    let best: [f64; 6] = std::array::from_fn(|k| reaches.iter().map(|r| r[k]).fold(f64::INFINITY, f64::min));
+    let wins = |i: &usize| (0..6).filter(|&k| reaches[*i][k] <= best[k]).count();
+    // Ties go to the first: `max_by_key` takes the last of equals.
+    (0..cycles.len()).rev().max_by_key(wins)
+}
+
+/// One new edge: its first old edge, its ends, and the old half-edges from one end to the other.
+struct Chain {
+    edge: u32,
+    ends: [u32; 2],
+    walk: Vec<u32>,
+}
+
+/// Edges joined through vertices that disappear.
+struct Chains {
+    vertices: Vec<u32>,
+    edges: Vec<[u32; 2]>,
+    old_half_edge: Vec<u32>,
+    /// The new half-edge that stands for an old one; `None` for removed edges and for all but one of a chain.
+    new_half_edge: Vec<Option<u32>>,
+}
+
+impl Chains {
+    fn new(faces: &Faces, removal: &Removal) -> Self {
+        let mut seen = removal.edges.to_vec();
+        let mut chains = Vec::with_capacity(faces.edges.len());
+        for edge in 0..faces.edges.len() as u32 {
+            if !seen[edge as usize] {
+                let walk = chain_through(edge, faces, removal.vertices);
+                walk.iter().for_each(|&h| seen[(h / 2) as usize] = true);
+                let ends = [faces.ends(walk[0])[0], faces.ends(*walk.last().expect("not empty"))[1]];
+                chains.push(Chain { edge, ends, walk });
+            }
+        }
+        Self::numbered(&without_doubles(chains, faces), faces)
+    }
+
+    fn numbered(chains: &[Chain], faces: &Faces) -> Self {
+        let n_vertices = faces.edges.as_flattened().iter().max().map_or(0, |&v| v as usize + 1);
+        let mut used = vec![false; n_vertices];
+        chains.iter().for_each(|c| c.ends.iter().for_each(|&v| used[v as usize] = true));
+        let mut new_vertex = vec![0; n_vertices];
+        let mut vertices = Vec::new();
+        for v in (0..n_vertices).filter(|&v| used[v]) {
+            new_vertex[v] = vertices.len() as u32;
+            vertices.push(v as u32);
+        }
+        let mut edges = Vec::with_capacity(chains.len());
+        let mut old_half_edge = Vec::with_capacity(chains.len());
+        let mut new_half_edge = vec![None; 2 * faces.edges.len()];
+        for (chain, id) in chains.iter().zip(0..) {
+            let [a, b] = chain.ends.map(|v| new_vertex[v as usize]);
+            edges.push([a.min(b), a.max(b)]);
+            let along =
+                chain.walk.iter().copied().find(|h| h / 2 == chain.edge).expect("chains hold their edge");
+            let forward = if a < b { along } else { along ^ 1 };
+            old_half_edge.push(forward);
+            new_half_edge[forward as usize] = Some(2 * id);
+            new_half_edge[(forward ^ 1) as usize] = Some(2 * id + 1);
+        }
+        Self { vertices, edges, old_half_edge, new_half_edge }
+    }
+}
+
+/// The half-edges of the chain that an edge is part of. A chain that closes on itself stays in single edges.
+fn chain_through(edge: u32, faces: &Faces, passing: &FxHashMap<u32, [u32; 2]>) -> Vec<u32> {
+    let onward = |h: u32| {
+        let head = faces.ends(h)[1];
+        let other = passing.get(&head)?.iter().copied().find(|&e| e != h / 2)?;
+        Some(2 * other + u32::from(faces.edges[other as usize][0] != head))
+    };
+    let mut ahead = vec![2 * edge];
+    while let Some(h) = onward(*ahead.last().expect("not empty")) {
+        if h == ahead[0] {
+            return vec![2 * edge];
+        }
+        ahead.push(h);
+    }
+    let mut behind = Vec::new();
+    let mut h = 2 * edge + 1;
+    while let Some(back) = onward(h) {
+        behind.push(back ^ 1);
+        h = back;
+    }
+    behind.reverse();
+    behind.extend(ahead);
+    behind
+}
+
+/// Chains with the same ends, or with equal ends, would make edges that cannot be told apart: they stay in pieces.
+fn without_doubles(chains: Vec<Chain>, faces: &Faces) -> Vec<Chain> {
+    let key = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
+    let mut count: FxHashMap<[u32; 2], u32> = FxHashMap::default();
+    if chains.iter().all(|c| c.walk.len() == 1) {
+        return chains;
+    }
+    for chain in &chains {
+        *count.entry(key(chain.ends)).or_default() += 1;
+    }
+    let mut out = Vec::with_capacity(chains.len());
+    for chain in chains {
+        if chain.walk.len() == 1 || (chain.ends[0] != chain.ends[1] && count[&key(chain.ends)] == 1) {
+            out.push(chain);
+        } else {
+            out.extend(chain.walk.into_iter().map(|h| Chain {
+                edge: h / 2,
+                ends: faces.ends(h),
+                walk: vec![h],
+            }));
+        }
+    }
+    out.sort_by_key(|chain| chain.edge);
+    out
+}

@@ -1,0 +1,252 @@
+//! The surface of a solid as a 2-complex of its own, in fragments or simplified: faces of one plane with the same
+//! sides become one, and vertices in the middle of straight edges disappear.
+//!
+//! Nothing is measured: two faces are in one plane when they are pieces of one planar polygon or when their exact
+//! planes are equal; a vertex lies on a straight edge when its two edges lie on the same two planes.
+
+use crate::boolean::Solid;
+use crate::kernel::Sign;
+use crate::merge::{self, Faces, Merged, Removal};
+use crate::pipeline::{boundary_1, boundary_2};
+use crate::soup::Parent;
+use crate::union_find::UnionFind;
+use lar_core::{Cells, ChainComplex, FaceId, Points};
+
+/// How much of the arrangement the surface of a solid shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Detail {
+    /// All faces of the arrangement.
+    Fragments,
+    /// Faces of one plane merged, straight edges in one piece.
+    #[default]
+    Simplified,
+}
+
+/// The surface of a solid: vertices, ∂1 and ∂2, all faces oriented outwards.
+#[derive(Clone, Debug)]
+pub struct SolidComplex {
+    /// The 2-complex.
+    pub complex: ChainComplex,
+    /// Vertices of the loops, the face on their left seen from outside.
+    loops: Cells,
+    face_loops: Vec<u32>,
+    parents: Vec<Vec<Parent>>,
+}
+
+impl SolidComplex {
+    /// Number of faces.
+    #[must_use]
+    pub fn n_faces(&self) -> usize {
+        self.parents.len()
+    }
+
+    /// Number of loops of all faces.
+    #[must_use]
+    pub fn n_loops(&self) -> usize {
+        self.loops.len()
+    }
+
+    /// Vertices of the loops of a face, the outer one first.
+    pub fn face_loops(&self, face: FaceId) -> impl ExactSizeIterator<Item = &[u32]> + Clone + '_ {
+        (self.face_loops[face.index()]..self.face_loops[face.index() + 1]).map(|l| &self.loops[l as usize])
+    }
+
+    /// The input faces that a face is made of pieces of; the sign is +1 where they look the same way.
+    #[must_use]
+    pub fn parents(&self, face: FaceId) -> &[Parent] {
+        &self.parents[face.index()]
+    }
+
+    /// V − E + Σ over faces of (2 − loops).
+    #[must_use]
+    pub fn euler(&self) -> i64 {
+        let faces: i64 = self.face_loops.windows(2).map(|w| 2 - i64::from(w[1] - w[0])).sum();
+        self.complex.n_cells(0) as i64 - self.complex.n_cells(1) as i64 + faces
+    }
+
+    /// Whether the surface is a cycle: ∂2 applied to the sum of all faces is zero.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        let boundary = self.complex.boundary(2);
+        let mut sums = vec![0i32; boundary.rows()];
+        for (&edge, &sign) in boundary.indices().iter().zip(boundary.data()) {
+            sums[edge as usize] += i32::from(sign);
+        }
+        sums.iter().all(|&s| s == 0)
+    }
+
+    /// Number of connected components of the surface.
+    #[must_use]
+    pub fn n_components(&self) -> usize {
+        let n = self.complex.n_cells(0);
+        let mut sets = UnionFind::new(n + self.n_faces());
+        for face in 0..self.n_faces() as u32 {
+            for &v in self.face_loops(FaceId(face)).flatten() {
+                sets.union(v, n as u32 + face);
+            }
+        }
+        sets.labels().1 as usize
+    }
+}
+
+impl Solid<'_> {
+    /// Its surface as a 2-complex. O(size of the surface) expected.
+    #[must_use]
+    pub fn to_complex(&self, detail: Detail) -> SolidComplex {
+        let surface = OutwardFaces::new(self);
+        let (removed, new_face, n_new_faces) = match detail {
+            Detail::Fragments => (
+                vec![false; surface.edges.len()],
+                (0..surface.faces.len() as u32).collect(),
+                surface.faces.len(),
+            ),
+            Detail::Simplified => surface.merged_faces(),
+        };
+        let straight = match detail {
+            Detail::Fragments => Default::default(),
+            Detail::Simplified => surface.straight_vertices(&removed, &new_face),
+        };
+        let points = self.arrangement.complex().points();
+        let faces = Faces { edges: &surface.edges, loops: &surface.loops, face_loops: &surface.face_loops };
+        let removal = Removal { edges: &removed, new_face: &new_face, n_new_faces, vertices: &straight };
+        let merged = merge::merge(&faces, &removal, |v| points.xyz(surface.vertices[v as usize] as usize));
+        let mut parents = vec![Vec::new(); n_new_faces];
+        for (&(face, sign), &new) in surface.faces.iter().zip(&new_face) {
+            let signed = |p: &Parent| Parent { sign: p.sign * sign, ..*p };
+            parents[new as usize].extend(self.arrangement.parents(face).iter().map(signed));
+        }
+        for list in &mut parents {
+            list.sort_unstable();
+            list.dedup();
+        }
+        surface.finished(merged, parents, points)
+    }
+}
+
+/// The boundary faces of a solid with vertices and edges numbered anew, all turned outwards.
+struct OutwardFaces<'a> {
+    solid: &'a Solid<'a>,
+    faces: Vec<(FaceId, i8)>,
+    vertices: Vec<u32>,
+    edges: Vec<[u32; 2]>,
+    loops: Cells,
+    face_loops: Vec<u32>,
+    /// The faces at each edge, by their numbers here.
+    around: Vec<Vec<u32>>,
+}
+
+impl<'a> OutwardFaces<'a> {
+    fn new(solid: &'a Solid<'a>) -> Self {
+        let a = solid.arrangement;
+        let faces: Vec<(FaceId, i8)> = solid.boundary().collect();
+        let half_edges = |face: FaceId, sign: i8| -> Vec<Vec<u32>> {
+            a.face_loops(face)
+                .map(|cycle| {
+                    let codes = cycle.map(|h| 2 * h.edge.0 + u32::from(h.reversed));
+                    if sign > 0 {
+                        codes.collect()
+                    } else {
+                        codes.collect::<Vec<_>>().iter().rev().map(|h| h ^ 1).collect()
+                    }
+                })
+                .collect()
+        };
+        let cycles: Vec<Vec<Vec<u32>>> = faces.iter().map(|&(face, sign)| half_edges(face, sign)).collect();
+        let old_edges = compacted(cycles.iter().flatten().flatten().map(|h| h / 2), a.n_edges());
+        let ends = |e: u32| [a.tail(2 * e), a.tail(2 * e + 1)];
+        let vertices = compacted(old_edges.list.iter().flat_map(|&e| ends(e)), a.n_vertices());
+        let edges: Vec<[u32; 2]> =
+            old_edges.list.iter().map(|&e| ends(e).map(|v| vertices.new[v as usize])).collect();
+        let (mut loops, mut face_loops) = (Cells::new(), vec![0]);
+        let mut around = vec![Vec::new(); edges.len()];
+        for (face_cycles, face) in cycles.iter().zip(0..) {
+            for cycle in face_cycles {
+                let renamed: Vec<u32> =
+                    cycle.iter().map(|h| 2 * old_edges.new[(h / 2) as usize] + h % 2).collect();
+                renamed.iter().for_each(|h| around[(h / 2) as usize].push(face));
+                loops.push(&renamed);
+            }
+            face_loops.push(loops.len() as u32);
+        }
+        Self { solid, faces, vertices: vertices.list, edges, loops, face_loops, around }
+    }
+
+    /// Whether two faces lie in one plane and look the same way.
+    fn in_one_plane(&self, f: u32, g: u32) -> bool {
+        let a = self.solid.arrangement;
+        let [(f, f_sign), (g, g_sign)] = [f, g].map(|i| self.faces[i as usize]);
+        if a.plane_of_face[f.index()] == a.plane_of_face[g.index()] {
+            return f_sign == g_sign;
+        }
+        let [f, g] = [f, g].map(|i| a.facet_of_face[i.index()]);
+        let same_way = a.geometry.same_way(f, g) == (f_sign == g_sign);
+        same_way && a.geometry.base(g).iter().all(|&p| a.geometry.side_of_point(p, f) == Sign::Zero)
+    }
+
+    /// Which edges disappear between faces of one plane, and the new number of each face.
+    fn merged_faces(&self) -> (Vec<bool>, Vec<u32>, usize) {
+        let mut sets = UnionFind::new(self.faces.len());
+        let removed = self
+            .around
+            .iter()
+            .map(|around| match around[..] {
+                [f, g] if self.in_one_plane(f, g) => {
+                    sets.union(f, g);
+                    true
+                }
+                _ => false,
+            })
+            .collect();
+        let (labels, n) = sets.labels();
+        (removed, labels, n as usize)
+    }
+
+    /// Vertices with two remaining edges that have the same two faces of different planes on both sides.
+    fn straight_vertices(&self, removed: &[bool], new_face: &[u32]) -> rustc_hash::FxHashMap<u32, [u32; 2]> {
+        let sides = |edge: u32| {
+            let mut faces: Vec<u32> =
+                self.around[edge as usize].iter().map(|&f| new_face[f as usize]).collect();
+            faces.sort_unstable();
+            faces
+        };
+        let mut candidates = merge::with_two_edges(&self.edges, removed, 0..self.vertices.len() as u32);
+        candidates.retain(|_, [e, f]| {
+            let (a, b) = (sides(*e), sides(*f));
+            a == b && a.len() >= 2 && a[0] != a[a.len() - 1]
+        });
+        candidates
+    }
+
+    fn finished(&self, merged: Merged, parents: Vec<Vec<Parent>>, points: &Points) -> SolidComplex {
+        let at = |v: &u32| points.xyz(self.vertices[*v as usize] as usize);
+        let positions: Vec<[f64; 3]> = merged.vertices.iter().map(at).collect();
+        let tail = |&h: &u32| merged.edges[(h / 2) as usize][(h % 2) as usize];
+        let loops = merged.loops.iter().map(|cycle| cycle.iter().map(tail).collect::<Vec<u32>>()).collect();
+        let boundaries =
+            vec![boundary_1(positions.len(), &merged.edges), boundary_2(merged.edges.len(), &merged)];
+        SolidComplex {
+            complex: ChainComplex::new(Points::from_xyz(&positions), boundaries),
+            loops,
+            face_loops: merged.face_loops,
+            parents,
+        }
+    }
+}
+
+/// Distinct numbers in ascending order, and the place of each in that list.
+struct Compacted {
+    list: Vec<u32>,
+    new: Vec<u32>,
+}
+
+fn compacted(used: impl Iterator<Item = u32>, n: usize) -> Compacted {
+    let mut is_used = vec![false; n];
+    used.for_each(|x| is_used[x as usize] = true);
+    let mut new = vec![0; n];
+    let mut list = Vec::new();
+    for x in (0..n).filter(|&x| is_used[x]) {
+        new[x] = list.len() as u32;
+        list.push(x as u32);
+    }
+    Compacted { list, new }
+}

@@ -1,0 +1,170 @@
+//! What the tests of arrangements share: random numbers, scenes, exact variants of a scene, and its counts.
+#![allow(dead_code, reason = "every test binary uses a part of it")]
+
+use lar_arrangement::{Arrangement, Arranger, Checks};
+use lar_core::{Affine, Points, Struct, Surface};
+
+/// SplitMix64 (Steele, Lea, Flood 2014).
+pub(crate) struct Random(pub(crate) u64);
+
+impl Random {
+    pub(crate) fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    pub(crate) fn below(&mut self, n: usize) -> usize {
+        (self.next() % n as u64) as usize
+    }
+
+    /// Uniform in lo..hi.
+    pub(crate) fn between(&mut self, lo: f64, hi: f64) -> f64 {
+        lo + (hi - lo) * (self.next() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// A random order of 0..n.
+    pub(crate) fn permutation(&mut self, n: usize) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..n).collect();
+        (1..n).for_each(|i| order.swap(i, self.below(i + 1)));
+        order
+    }
+}
+
+/// The surfaces of a scene.
+pub(crate) fn surfaces(scene: &Struct) -> Vec<Surface> {
+    let models = scene.eval_struct().expect("the scene is well formed");
+    models.iter().map(|m| m.to_surface().expect("the models have faces")).collect()
+}
+
+/// A surface of faces with one loop each.
+pub(crate) fn surface(points: &[[f64; 3]], faces: &[&[u32]]) -> Surface {
+    let mut out = Surface::new("surface", Points::from_xyz(points));
+    faces.iter().for_each(|&face| {
+        out.push_face([face], 1);
+    });
+    out
+}
+
+/// The box between two corners, faces outward.
+pub(crate) fn cuboid(lo: [f64; 3], hi: [f64; 3]) -> Surface {
+    let corner = |i: usize| [0, 1, 2].map(|k| if i >> k & 1 == 0 { lo[k] } else { hi[k] });
+    let faces: [&[u32]; 6] =
+        [&[0, 4, 6, 2], &[1, 3, 7, 5], &[0, 1, 5, 4], &[2, 6, 7, 3], &[0, 2, 3, 1], &[4, 5, 7, 6]];
+    surface(&(0..8).map(corner).collect::<Vec<_>>(), &faces)
+}
+
+/// All stages checked.
+#[track_caller]
+pub(crate) fn arranged(surfaces: &[Surface]) -> Arrangement {
+    Arranger::new().checks(Checks::EveryStage).arrange(surfaces).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// Vertices, edges, faces, cells.
+pub(crate) fn counts(a: &Arrangement) -> [usize; 4] {
+    [a.n_vertices(), a.n_edges(), a.n_faces(), a.n_cells()]
+}
+
+/// Everything that is counted: vertices, edges, faces, cells, shells, loops, components, dangling faces, parents.
+pub(crate) fn all_counts(a: &Arrangement) -> [usize; 9] {
+    let [v, e, f, c] = counts(a);
+    let parents = (0..f as u32).map(|f| a.parents(lar_core::FaceId(f)).len()).sum();
+    [v, e, f, c, a.n_shells(), a.n_loops(), a.n_components(), a.dangling_faces().count(), parents]
+}
+
+/// Volumes of the bounded cells, ascending.
+pub(crate) fn sorted_volumes(a: &Arrangement) -> Vec<f64> {
+    let mut volumes = a.volumes()[1..].to_vec();
+    volumes.sort_by(f64::total_cmp);
+    volumes
+}
+
+#[track_caller]
+pub(crate) fn assert_close(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
+    let close =
+        found.len() == expected.len() && found.iter().zip(expected).all(|(a, b)| (a - b).abs() <= tolerance);
+    assert!(close, "{what}: {found:?} instead of {expected:?} (± {tolerance:e})");
+}
+
+/// The surface with its points mapped; loops stay as they are.
+pub(crate) fn mapped(s: &Surface, map: impl Fn([f64; 3]) -> [f64; 3]) -> Surface {
+    let mut out = s.clone();
+    let points: Vec<[f64; 3]> = (0..s.points.len()).map(|i| map(s.points.xyz(i))).collect();
+    out.points = Points::from_xyz(&points);
+    out
+}
+
+/// The surfaces moved by an affine map.
+pub(crate) fn moved(surfaces: &[Surface], map: &Affine) -> Vec<Surface> {
+    surfaces.iter().map(|s| s.transformed(map).expect("a map of 3-space")).collect()
+}
+
+/// All loops reversed.
+pub(crate) fn flipped(s: &Surface) -> Surface {
+    rebuilt(s, &(0..s.n_faces()).collect::<Vec<_>>(), |cycle| cycle.reverse())
+}
+
+/// The faces in another order, each loop starting elsewhere; points keep their numbers.
+pub(crate) fn shuffled(s: &Surface, random: &mut Random) -> Surface {
+    let order = random.permutation(s.n_faces());
+    rebuilt(s, &order, |cycle| {
+        let start = random.below(cycle.len().max(1));
+        cycle.rotate_left(start);
+    })
+}
+
+fn rebuilt(s: &Surface, order: &[usize], mut change: impl FnMut(&mut Vec<u32>)) -> Surface {
+    let mut out = Surface::new(s.name.clone(), s.points.clone());
+    for &f in order {
+        let mut loops: Vec<Vec<u32>> = s.face(f).map(<[u32]>::to_vec).collect();
+        loops.iter_mut().for_each(&mut change);
+        out.push_face(loops.iter().map(Vec::as_slice), s.coefficient(f));
+    }
+    out
+}
+
+/// The surface with its points in another order.
+pub(crate) fn renumbered(s: &Surface, random: &mut Random) -> Surface {
+    let order = random.permutation(s.points.len());
+    let mut new_from_old = vec![0; order.len()];
+    order.iter().zip(0..).for_each(|(&old, new)| new_from_old[old] = new);
+    let points: Vec<[f64; 3]> = order.iter().map(|&old| s.points.xyz(old)).collect();
+    let all: Vec<usize> = (0..s.n_faces()).collect();
+    let mut out = rebuilt(s, &all, |cycle| cycle.iter_mut().for_each(|v| *v = new_from_old[*v as usize]));
+    out.points = Points::from_xyz(&points);
+    out
+}
+
+/// Variants whose coordinates are the same numbers up to order and sign, so that snapping does the same to them:
+/// quarter turns, mirrored axes, permuted axes.
+pub(crate) fn exact_motions(surfaces: &[Surface]) -> Vec<(&'static str, Vec<Surface>)> {
+    type Motion = (&'static str, fn([f64; 3]) -> [f64; 3]);
+    let motions: [Motion; 7] = [
+        ("quarter turn about x", |[x, y, z]| [x, -z, y]),
+        ("quarter turn about y", |[x, y, z]| [z, y, -x]),
+        ("quarter turn about z", |[x, y, z]| [-y, x, z]),
+        ("axes x y z to y z x", |[x, y, z]| [y, z, x]),
+        ("axes x y z to y x z", |[x, y, z]| [y, x, z]),
+        ("mirrored x", |[x, y, z]| [-x, y, z]),
+        ("mirrored y and z", |[x, y, z]| [x, -y, -z]),
+    ];
+    motions.map(|(name, m)| (name, surfaces.iter().map(|s| mapped(s, m)).collect())).into()
+}
+
+/// Variants that change nothing but numbers and orientations.
+pub(crate) fn relabelled(surfaces: &[Surface], seed: u64) -> Vec<(&'static str, Vec<Surface>)> {
+    let random = &mut Random(seed);
+    let reversed: Vec<Surface> = surfaces.iter().rev().cloned().collect();
+    let shuffle: Vec<Surface> = surfaces.iter().map(|s| shuffled(s, random)).collect();
+    let number: Vec<Surface> = surfaces.iter().map(|s| renumbered(s, random)).collect();
+    let one: Vec<Surface> =
+        surfaces.iter().enumerate().map(|(i, s)| if i == 0 { flipped(s) } else { s.clone() }).collect();
+    vec![
+        ("solids in reverse order", reversed),
+        ("faces in another order", shuffle),
+        ("points in another order", number),
+        ("all faces flipped", surfaces.iter().map(flipped).collect()),
+        ("faces of the first solid flipped", one),
+    ]
+}
