@@ -69,7 +69,8 @@ impl Drawable {
         Self::new(name, Shape::Lines { segments, width: 1.8, cell_edges: false }, crate::INK)
     }
 
-    /// Segments that are the edges of cells: drawn as `lines`, hidden when the view shows no edges.
+    /// Segments that are the edges of cells: drawn as `lines`, hidden when the view shows no edges, and thinner where
+    /// the cell is so small on the screen that its edges would cover it.
     #[must_use]
     pub fn edges(name: impl Into<String>, segments: impl IntoIterator<Item = [[f64; 3]; 2]>) -> Self {
         let segments = segments.into_iter().collect();

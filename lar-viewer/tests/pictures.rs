@@ -213,6 +213,50 @@ fn hidden_edges_leave_faces_and_other_lines() {
     assert_eq!(draw(&mut renderer, &scene, &without), draw(&mut renderer, &bare, &view));
 }
 
+/// Width in pixels of a vertical black line on white, measured as the darkness of the middle row.
+#[track_caller]
+fn check_width(line: Drawable, zoom: f64, scale: f32, expected: f64) {
+    let Some(mut renderer) = renderer() else { return };
+    let mut scene = Scene::new();
+    scene.push(line.color([0.0; 3])).unwrap();
+    let mut view = View { background: WHITE, scale, samples: 4, ..View::default() };
+    (view.camera.azimuth, view.camera.elevation) = (0.3, 0.0);
+    for _ in 0..2 {
+        view.camera = view.camera.fit(&scene.bounds([1.0; 3]).unwrap(), 1.0);
+        view.camera.distance /= zoom;
+        let image = renderer.render(&scene, &view, 64, 64).unwrap();
+        let darkness = |x| 1.0 - f64::from(image.pixel(x, 32).unwrap()[0]) / 255.0;
+        let width: f64 = (0..64).map(darkness).sum();
+        assert!((width - expected).abs() < 0.3, "{width} is not {expected} in {:?}", view.camera.projection);
+        view.camera = view.camera.toggle_projection();
+    }
+}
+
+#[test]
+fn lines_have_their_width_at_any_distance() {
+    let line = |width| Drawable::lines("line", [[[0.0; 3], [0., 0., 1.]]]).width(width);
+    for zoom in [0.3, 1.0, 20.0] {
+        check_width(line(2.0), zoom, 1.0, 2.0);
+        check_width(line(5.0), zoom, 1.0, 5.0);
+        check_width(line(2.0), zoom, 3.0, 6.0);
+    }
+}
+
+#[test]
+fn points_have_their_size_at_any_distance() {
+    for zoom in [0.3, 1.0, 20.0] {
+        check_width(Drawable::points("point", [[0.0; 3]]).size(8.0), zoom, 1.0, 8.0);
+    }
+}
+
+#[test]
+fn edges_keep_their_width_until_the_cell_is_small() {
+    let edge = || Drawable::edges("edge", [[[0.0; 3], [0., 0., 1.]]]).width(2.0);
+    check_width(edge(), 1.0, 1.0, 2.0);
+    check_width(edge(), 0.3, 1.0, 2.0);
+    check_width(edge(), 0.05, 1.0, 0.12 * 0.94 * 64.0 * 0.05);
+}
+
 #[test]
 fn pictures_drawn_in_bands_are_the_same() {
     let Some(mut whole) = renderer() else { return };

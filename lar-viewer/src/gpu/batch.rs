@@ -12,13 +12,17 @@ use super::frame::Placement;
 use crate::Scene;
 use crate::scene::{Drawable, Extents, Shape, point3};
 use bytemuck::{Pod, Zeroable};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use lar_core::TriangleMesh;
 
 /// Flag of a part whose mesh is lit; `LIT` in `common.wgsl`.
 const LIT: u32 = 1;
 /// Flag of a part that is cell edges; `CELL_EDGE` in `common.wgsl`.
 const CELL_EDGE: u32 = 2;
+/// Cell edges are no wider than this part of the cell's mean edge, so that a million cells are not a black heap.
+const EDGE_WIDTH: f32 = 0.12;
+/// Longer than anything in a scene, which has radius 1.
+const UNLIMITED: f32 = 1e6;
 /// Radii below this are taken for points; the scene then keeps world units.
 const SMALLEST_RADIUS: f64 = 1e-90;
 
@@ -48,6 +52,8 @@ pub(crate) struct Line {
     pub(crate) part: u32,
     pub(crate) end: [f32; 3],
     pub(crate) width: f32,
+    /// The most that the width may be, as a length in the scene.
+    pub(crate) most: f32,
 }
 
 /// A dot.
@@ -118,11 +124,11 @@ impl Batch {
         self.parts.push(Part { color: [r, g, b, drawable.opacity], centroid, flags });
         match &drawable.shape {
             Shape::Mesh { mesh, .. } => self.push_mesh(part, mesh),
-            Shape::Lines { segments, width, .. } => {
-                for &[start, end] in segments {
-                    let line = Line { start: self.place(start), part, end: self.place(end), width: *width };
-                    self.lines.elements.push(line);
-                }
+            Shape::Lines { segments, width, cell_edges } => {
+                let segments = segments.iter().map(|s| s.map(|p| self.place(p)));
+                let most = if *cell_edges { EDGE_WIDTH * mean_length(segments.clone()) } else { UNLIMITED };
+                let lines = segments.map(|[start, end]| Line { start, part, end, width: *width, most });
+                self.lines.elements.extend(lines.collect::<Vec<_>>());
             }
             Shape::Points { points, size } => {
                 for &center in points {
@@ -148,6 +154,11 @@ impl Batch {
     fn place(&self, p: [f64; 3]) -> [f32; 3] {
         self.placement.scene_from_world(p).map(|x| x as f32)
     }
+}
+
+fn mean_length(segments: impl ExactSizeIterator<Item = [[f32; 3]; 2]>) -> f32 {
+    let n = segments.len().max(1) as f32;
+    segments.map(|[a, b]| Vec3::from(a).distance(Vec3::from(b))).sum::<f32>() / n
 }
 
 /// The unit normal in units of 1/32767; `None` when the triangle has no area.

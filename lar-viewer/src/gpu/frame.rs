@@ -68,7 +68,7 @@ impl Frame {
         });
         let (depth, reach) = (camera.depth(center), 1.1 * radius.max(1e-3 * camera.distance));
         let (near, far) = match camera.projection {
-            Projection::Orthographic => (depth - reach, depth + reach),
+            Projection::Orthographic => (depth - reach - camera.world_per_pixel(1.0), depth + reach),
             Projection::Perspective => depth_range(depth, reach, camera.distance),
         };
         let perspective = camera.projection == Projection::Perspective;
@@ -93,11 +93,12 @@ impl Frame {
     }
 }
 
-/// Nearest and farthest depth of a sphere of radius `reach` whose centre lies at `depth`; the part of it that is
-/// behind the eye, or so near that the depth buffer would suffer, is cut off.
+/// Nearest and farthest depth of a sphere of radius `reach` whose centre lies at `depth`, with room for lines and
+/// points that are drawn nearer to the eye than they are, by half their depth at most (an orthographic camera leaves
+/// the height of the picture). What is behind the eye, or so near that the depth buffer would suffer, is cut off.
 fn depth_range(depth: f64, reach: f64, distance: f64) -> (f64, f64) {
     let far = (depth + reach).max(2e-3 * distance);
-    ((depth - reach).max(1e-4 * far), far)
+    ((0.5 * (depth - reach)).max(1e-4 * far), far)
 }
 
 #[cfg(test)]
@@ -139,7 +140,7 @@ mod tests {
 
     #[test]
     fn depth_range_stays_before_the_eye() {
-        assert_eq!(depth_range(5.0, 1.0, 5.0), (4.0, 6.0));
+        assert_eq!(depth_range(5.0, 1.0, 5.0), (2.0, 6.0));
         let (near, far) = depth_range(0.5, 1.0, 0.5);
         assert!(0.0 < near && near < far, "inside the scene: {near} {far}");
         let (near, far) = depth_range(-9.0, 1.0, 2.0);

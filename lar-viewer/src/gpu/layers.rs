@@ -15,8 +15,6 @@ use wgpu::{BindingResource, Buffer, BufferUsages};
 pub(crate) const NODE_BYTES: u32 = 12;
 /// Bytes that the node buffer takes at most unless asked for otherwise: 22 million layers.
 pub(crate) const DEFAULT_MEMORY: u64 = 256 << 20;
-/// Layers that there is room for in the first frame, where that is allowed.
-const FIRST_CAPACITY: u32 = 1 << 18;
 
 /// Buffers of the A-buffer for pictures of one size.
 pub(crate) struct Layers {
@@ -81,10 +79,11 @@ impl Layers {
         Self { size, band_rows, node_capacity, heads, counts, readback, group }
     }
 
-    /// Buffers for the first frame of a size.
+    /// Buffers for the first frame of a size, with room for as many layers as there are samples.
     pub(crate) fn first(context: &Context, pipelines: &Pipelines, targets: &Targets, memory: u64) -> Self {
-        let capacity = FIRST_CAPACITY.min(most_nodes(context, memory));
-        Self::new(context, pipelines, targets, targets.raster.size()[1], capacity)
+        let [width, height] = targets.raster.size();
+        let capacity = width.saturating_mul(height).min(most_nodes(context, memory));
+        Self::new(context, pipelines, targets, height, capacity)
     }
 
     /// The bands from top to bottom.

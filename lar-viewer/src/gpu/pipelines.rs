@@ -6,7 +6,9 @@
 use super::batch::{Dot, Line, Vertex};
 use super::frame::Frame;
 use super::shaders;
-use wgpu::{BindGroupLayout, Device, PipelineLayout, RenderPipeline, ShaderStages, TextureFormat};
+use wgpu::{
+    BindGroupLayout, Device, PipelineLayout, RenderPipeline, ShaderStages, TextureFormat, VertexAttribute,
+};
 
 /// Colour of samples and of the finished picture.
 pub(crate) const COLOR: TextureFormat = TextureFormat::Rgba8Unorm;
@@ -15,6 +17,16 @@ pub(crate) const COLOR: TextureFormat = TextureFormat::Rgba8Unorm;
 pub(crate) const OPAQUE_DEPTH: TextureFormat = TextureFormat::R32Uint;
 /// Depth buffer of the opaque pass.
 pub(crate) const DEPTH: TextureFormat = TextureFormat::Depth32Float;
+
+/// What the mesh shader reads per vertex, in the order of the fields of `Vertex`.
+const MESH_ATTRIBUTES: [VertexAttribute; 3] =
+    wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Snorm16x4];
+/// What the line shader reads per instance, in the order of the fields of `Line`.
+const LINE_ATTRIBUTES: [VertexAttribute; 5] =
+    wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Float32x3, 3 => Float32, 4 => Float32];
+/// What the point shader reads per instance, in the order of the fields of `Dot`.
+const POINT_ATTRIBUTES: [VertexAttribute; 3] =
+    wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Float32];
 
 /// The two ways of drawing one kind of geometry.
 pub(crate) struct Pair {
@@ -177,7 +189,7 @@ impl Maker<'_> {
             buffer: wgpu::VertexBufferLayout {
                 array_stride: size_of::<Vertex>() as u64,
                 step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Snorm16x4],
+                attributes: &MESH_ATTRIBUTES,
             },
         })
     }
@@ -190,7 +202,7 @@ impl Maker<'_> {
             buffer: wgpu::VertexBufferLayout {
                 array_stride: size_of::<Line>() as u64,
                 step_mode: wgpu::VertexStepMode::Instance,
-                attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Float32x3, 3 => Float32],
+                attributes: &LINE_ATTRIBUTES,
             },
         })
     }
@@ -203,7 +215,7 @@ impl Maker<'_> {
             buffer: wgpu::VertexBufferLayout {
                 array_stride: size_of::<Dot>() as u64,
                 step_mode: wgpu::VertexStepMode::Instance,
-                attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Float32],
+                attributes: &POINT_ATTRIBUTES,
             },
         })
     }
@@ -255,5 +267,30 @@ impl Maker<'_> {
             multiview_mask: None,
             cache: None,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::mem::offset_of;
+
+    #[track_caller]
+    fn check_offsets(attributes: &[VertexAttribute], offsets: &[usize], size: usize) {
+        let read: Vec<_> = attributes.iter().map(|a| a.offset as usize).collect();
+        assert_eq!(read, offsets);
+        let end = attributes.iter().map(|a| a.offset + a.format.size()).max();
+        assert_eq!(end, Some(size as u64));
+    }
+
+    #[test]
+    fn attributes_lie_where_the_structs_have_their_fields() {
+        let mesh = [offset_of!(Vertex, position), offset_of!(Vertex, part), offset_of!(Vertex, normal)];
+        check_offsets(&MESH_ATTRIBUTES, &mesh, size_of::<Vertex>());
+        let line = [offset_of!(Line, start), offset_of!(Line, part), offset_of!(Line, end)];
+        let line = [&line[..], &[offset_of!(Line, width), offset_of!(Line, most)]].concat();
+        check_offsets(&LINE_ATTRIBUTES, &line, size_of::<Line>());
+        let point = [offset_of!(Dot, center), offset_of!(Dot, part), offset_of!(Dot, size)];
+        check_offsets(&POINT_ATTRIBUTES, &point, size_of::<Dot>());
     }
 }

@@ -1,11 +1,13 @@
 // Segments as quads of constant width on the screen with round ends. They are drawn a little nearer to the eye than
-// they are, by as much as their width, so that the faces they bound do not cover half of them.
+// they are, by as much as their width, so that the faces they bound do not cover half of them. Edges of cells so small
+// on the screen that their edges would cover them are drawn thinner.
 
 struct LineInstance {
     @location(0) start: vec3<f32>,
     @location(1) part: u32,
     @location(2) end: vec3<f32>,
     @location(3) width: f32,
+    @location(4) most: f32,     // most that the width may be, as a length in the scene
 }
 
 struct LineFragment {
@@ -34,7 +36,9 @@ fn line_vertex(@builtin(vertex_index) corner: u32, line: LineInstance) -> LineFr
         out.position = NOWHERE;
         return out;
     }
-    let half_width = 0.5 * line.width * frame.samples_per_pixel;
+    let sample = frame.sample_size * select(1.0, -0.5 * (start.z + end.z), frame.perspective == 1u);
+    let most = line.most / max(abs(sample), 1e-20);
+    let half_width = 0.5 * min(line.width * frame.samples_per_pixel, most);
     let bias = 2.0 * half_width;
     let a = screen_position(towards_eye(clipped(start, end), bias));
     let b = screen_position(towards_eye(clipped(end, start), bias));

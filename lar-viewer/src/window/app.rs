@@ -51,7 +51,10 @@ impl ApplicationHandler for App {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         if self.painter.is_none() {
             match self.open(event_loop) {
-                Ok(painter) => self.painter = Some(painter),
+                Ok(painter) => {
+                    painter.window().request_redraw();
+                    self.painter = Some(painter);
+                }
                 Err(error) => self.close_on_error(event_loop, Err(error)),
             }
         }
