@@ -176,3 +176,30 @@ fn lacking(adapter: &Adapter, surface: Option<&wgpu::Surface<'_>>) -> Option<&'s
         None
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_an_adapter_the_error_says_what_to_install() {
+        let none = wgpu::InstanceDescriptor {
+            backends: Backends::empty(),
+            ..wgpu::InstanceDescriptor::new_without_display_handle()
+        };
+        let error = best_adapter(&Instance::new(none), None).unwrap_err();
+        let message = error.to_string();
+        assert!(matches!(error, ViewerError::NoAdapter { .. }), "{message}");
+        assert!(
+            message.contains("none found") && message.contains("apt-get install libvulkan1"),
+            "{message}"
+        );
+    }
+
+    #[test]
+    fn graphics_cards_come_before_software() {
+        let order =
+            [DeviceType::DiscreteGpu, DeviceType::IntegratedGpu, DeviceType::VirtualGpu, DeviceType::Cpu];
+        assert!(order.is_sorted_by_key(|t| rank(*t)));
+    }
+}

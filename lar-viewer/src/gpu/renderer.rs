@@ -9,8 +9,10 @@
 //!
 //! Supersampling, not multisampling: with lists per sample, transparent outlines, lines and points become as smooth
 //! as opaque ones, the depth texture can be read on every backend, and 1 to 8 samples a side can be had where
-//! multisampling offers only four in all. On the software drivers, which servers draw with, four multisamples take
-//! about as long as four whole samples.
+//! multisampling offers only four in all. On the software drivers that servers draw with, four multisamples cost no
+//! less than four whole samples: 70 to 90 ms against 15 ms for a thousand triangles at 1280 × 720, 230 to 310 ms
+//! against 40 ms for a hundred thousand (llvmpipe, two cores; `examples/frame_times.rs` measures again). Three by
+//! three, the default, takes 30 and 60 ms, and 200 and 300 ms when everything is transparent.
 
 use super::batch::{Batch, Sorted};
 use super::context::Context;

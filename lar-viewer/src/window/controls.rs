@@ -53,8 +53,8 @@ impl Controls {
         });
         let response = central.inner;
         self.mouse(ui, &response);
-        let keys = !ui.ctx().egui_wants_keyboard_input();
-        let pressed = |key| keys && ui.input(|i| i.key_pressed(key));
+        let typing = ui.ctx().text_edit_focused();
+        let pressed = |key| !typing && ui.input(|i| i.key_pressed(key));
         if pressed(Key::P) {
             self.view.camera = self.view.camera.toggle_projection();
         }
@@ -65,7 +65,7 @@ impl Controls {
         Asked {
             area: response.rect,
             screenshot,
-            close: ui.input(|i| i.key_pressed(Key::Escape)),
+            close: pressed(Key::Escape),
             dragging: ui.input(|i| i.pointer.any_down()),
         }
     }
