@@ -1,10 +1,10 @@
 //! Stage 5a: which shells bound the same 3-cell.
 //!
-//! A connected set of faces (through edges) has one shell that looks outwards; all its others bound cells of
-//! their own. Components do not cross, so each lies in one cell of the rest. Both questions are answered by one
-//! ray: from the middle of an edge of the component, towards −x, over all faces hit in order. The shell on the
-//! component's side after its last hit is the one that looks outwards; while the ray runs on that side, the first
-//! face of another component that it meets faces the cell in which the component lies.
+//! Shells of one component of faces (connected through edges) are told apart by gift wrapping, but a cell may be
+//! bounded by shells of several components. One ray for each component finds out: from the middle of an edge of
+//! it towards −x, over all faces hit in order. Between two hits the ray stays in one cell, so the shell that it
+//! leaves and the one that it meets next bound the same cell; beyond the last hit it is in the exterior. As every
+//! ray ends there, it does not matter that two components may hit each other.
 //!
 //! The middle of an edge never touches another component. Degenerate hits are excluded by moving the start by
 //! (ε³, ε, ε²) for an infinitesimal ε, consistently in every predicate (simulation of simplicity).
@@ -42,9 +42,13 @@ impl Nesting<'_> {
         // Element n stands for the exterior.
         let mut sets = UnionFind::new(n + 1);
         let tree = BoxTree::new(&self.boxes());
-        for (edge, component) in self.first_edges() {
-            let (outer, around) = self.shoot(edge, component, &tree);
-            sets.union(outer, around.unwrap_or(n as u32));
+        for edge in self.first_edges() {
+            let mut here = self.shell_of_side[self.sector(edge) as usize];
+            for hit in self.hits(edge, &tree) {
+                sets.union(here, self.shell(&hit, false));
+                here = self.shell(&hit, true);
+            }
+            sets.union(here, n as u32);
         }
         let (labels, n_cells) = sets.labels();
         let exterior = labels[n];
@@ -66,21 +70,20 @@ impl Nesting<'_> {
     }
 
     /// One edge of each component.
-    fn first_edges(&self) -> Vec<(u32, u32)> {
+    fn first_edges(&self) -> Vec<u32> {
         let mut seen = vec![false; self.n_components as usize];
         let mut found = Vec::new();
         for (face, &component) in (0..).zip(self.component_of_face) {
             if !std::mem::replace(&mut seen[component as usize], true) {
                 let h = self.skeleton.half_edges(face).next().expect("faces have edges");
-                found.push((h / 2, component));
+                found.push(h / 2);
             }
         }
         found
     }
 
-    /// The shell with which a component looks outwards, and a shell of another component that bounds the cell it
-    /// lies in, `None` for the exterior.
-    fn shoot(&self, edge: u32, component: u32, tree: &BoxTree) -> (u32, Option<u32>) {
+    /// The faces that the ray from the middle of an edge meets, in their order.
+    fn hits(&self, edge: u32, tree: &BoxTree) -> Vec<Hit> {
         let [a, b] = self.skeleton.edges[edge as usize].map(|v| &self.skeleton.vertices[v as usize]);
         let start = self.geometry.midpoint(a, b);
         let mut hits = Vec::new();
@@ -91,19 +94,7 @@ impl Nesting<'_> {
         };
         tree.query(&beam, |face| hits.extend(self.hit(face, &start)));
         hits.sort_by(nearer);
-        let own = |hit: &Hit| self.component_of_face[hit.face as usize] == component;
-        let beyond = |hit: &Hit| self.shell(hit, true);
-        let first = self.shell_of_side[self.sector(edge) as usize];
-        let outer = hits.iter().rfind(|h| own(h)).map_or(first, beyond);
-        let mut here = first;
-        for hit in &hits {
-            if own(hit) {
-                here = beyond(hit);
-            } else if here == outer {
-                return (outer, Some(self.shell(hit, false)));
-            }
-        }
-        (outer, None)
+        hits
     }
 
     /// The shell on the side of a hit face that the ray leaves to, or comes from.
