@@ -69,14 +69,17 @@ impl Polygon<'_> {
         self.corners().map(|p| (plane.side(self.at(p)) as f64 / length).abs()).fold(0.0, f64::max)
     }
 
-    /// Three corners far from one line: the first, the farthest from it, and the farthest from their line.
+    /// Three corners far from one line: that of lowest number, the farthest from it, and the farthest from their
+    /// line. Ties go to the highest number, so that it does not matter where a loop starts or which way it turns.
     fn spanning_corners(&self) -> Option<[u32; 3]> {
-        let a = self.corners().next()?;
+        let mut corners: Vec<u32> = self.corners().collect();
+        corners.sort_unstable();
+        let a = *corners.first()?;
         let distance = |p: u32| {
             let (p, a) = (self.at(p), self.at(a));
             (0..3).map(|k| ((p[k] - a[k]) as f64).powi(2)).sum::<f64>()
         };
-        let b = self.corners().max_by(|&p, &q| distance(p).total_cmp(&distance(q)))?;
+        let b = corners.iter().copied().max_by(|&p, &q| distance(p).total_cmp(&distance(q)))?;
         let area = |p: u32| {
             Plane::through(self.at(a), self.at(b), self.at(p))
                 .n
@@ -84,7 +87,7 @@ impl Polygon<'_> {
                 .iter()
                 .sum::<f64>()
         };
-        let c = self.corners().max_by(|&p, &q| area(p).total_cmp(&area(q)))?;
+        let c = corners.iter().copied().max_by(|&p, &q| area(p).total_cmp(&area(q)))?;
         (area(c) > 0.0).then_some([a, b, c])
     }
 

@@ -1,0 +1,114 @@
+//! Random triangles and quadrilaterals with small integer corners: coplanar overlaps, common edges, corners inside
+//! faces, repeated and degenerate faces abound. No counts are known beforehand; laws are.
+
+mod common;
+
+use common::{all_counts, exact_motions, flipped, shuffled, surface};
+use lar_arrangement::{Arrangement, Arranger, Checks};
+use lar_core::Surface;
+use proptest::prelude::*;
+use std::num::NonZeroUsize;
+
+type Corner = [i8; 3];
+
+fn corner() -> impl Strategy<Value = Corner> {
+    prop::array::uniform3(0i8..4)
+}
+
+/// A triangle, possibly degenerate.
+fn triangle() -> impl Strategy<Value = Vec<Corner>> {
+    prop::collection::vec(corner(), 3)
+}
+
+/// Four corners anywhere: skew, or self-crossing, or both.
+fn skew() -> impl Strategy<Value = Vec<Corner>> {
+    prop::collection::vec(corner(), 4)
+}
+
+/// p, p + a, p + a + b, p + b, in this order or crossing itself.
+fn planar() -> impl Strategy<Value = Vec<Corner>> {
+    (corner(), corner(), corner(), any::<bool>()).prop_map(|(p, a, b, crossed)| {
+        let sum = |x: Corner, y: Corner| -> Corner { std::array::from_fn(|k| x[k] + y[k] - 1) };
+        let (q, r) = (sum(p, a), sum(p, b));
+        let far = sum(q, b);
+        if crossed { vec![p, q, r, far] } else { vec![p, q, far, r] }
+    })
+}
+
+fn soup(face: impl Strategy<Value = Vec<Corner>>) -> impl Strategy<Value = Vec<Vec<Corner>>> {
+    prop::collection::vec(face, 2..=12)
+}
+
+/// One surface, every face with its own points.
+fn surface_of(faces: &[Vec<Corner>]) -> Surface {
+    let points: Vec<[f64; 3]> = faces.iter().flatten().map(|p| p.map(f64::from)).collect();
+    let mut begin = 0;
+    let ids: Vec<Vec<u32>> = faces
+        .iter()
+        .map(|f| {
+            let ids = (begin..begin + f.len() as u32).collect();
+            begin += f.len() as u32;
+            ids
+        })
+        .collect();
+    surface(&points, &ids.iter().map(Vec::as_slice).collect::<Vec<_>>())
+}
+
+fn arranged(surfaces: &[Surface], threads: usize) -> Result<Arrangement, TestCaseError> {
+    let threads = NonZeroUsize::new(threads).expect("at least one thread");
+    Arranger::new()
+        .threads(threads)
+        .checks(Checks::EveryStage)
+        .arrange(surfaces)
+        .map_err(|e| TestCaseError::fail(e.to_string()))
+}
+
+/// The laws that hold for every soup. Returns its arrangement.
+fn check_laws(surface: &Surface, seed: u64) -> Result<Arrangement, TestCaseError> {
+    let one = std::slice::from_ref(surface);
+    let (a, b) = (arranged(one, 1)?, arranged(one, 3)?);
+    prop_assert_eq!(a.complex().to_json().expect("valid"), b.complex().to_json().expect("valid"));
+    let total: f64 = a.volumes().iter().sum();
+    prop_assert!(total.abs() < 1e-9, "volumes add up to {}", total);
+    let random = &mut common::Random(seed);
+    for variant in [flipped(surface), shuffled(surface, random)] {
+        let other = arranged(&[variant], 1)?;
+        prop_assert_eq!(all_counts(&other), all_counts(&a));
+    }
+    Ok(a)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1_500))]
+
+    /// The diagonal of a skew quadrilateral depends on the axis of its projection, so axes stay.
+    #[test]
+    fn skew_faces(faces in soup(prop_oneof![triangle(), skew()]), seed: u64) {
+        check_laws(&surface_of(&faces), seed)?;
+    }
+
+    #[test]
+    fn planar_faces(faces in soup(prop_oneof![triangle(), planar()]), seed: u64) {
+        let surface = surface_of(&faces);
+        let a = check_laws(&surface, seed)?;
+        for (name, variant) in exact_motions(&[surface]) {
+            let other = arranged(&variant, 1)?;
+            prop_assert_eq!(all_counts(&other), all_counts(&a), "{}", name);
+        }
+    }
+
+    /// Everything in two planes at a right angle: all pairs are coplanar or meet in one line.
+    #[test]
+    fn faces_in_two_planes(faces in soup(triangle()), seed: u64) {
+        let flat: Vec<Vec<Corner>> = faces
+            .iter()
+            .enumerate()
+            .map(|(i, f)| f.iter().map(|&[x, y, _]| if i % 3 == 0 { [x, 1, y] } else { [x, y, 2] }).collect())
+            .collect();
+        let surface = surface_of(&flat);
+        let a = check_laws(&surface, seed)?;
+        for (name, variant) in exact_motions(&[surface]) {
+            prop_assert_eq!(all_counts(&arranged(&variant, 1)?), all_counts(&a), "{}", name);
+        }
+    }
+}
