@@ -153,12 +153,18 @@ impl Drawable {
     /// The box around it, not exploded; `None` when it has no points.
     #[must_use]
     pub fn bounds(&self) -> Option<Bounds> {
+        Bounds::of(self.points_drawn())
+    }
+
+    /// The points that it draws, not exploded, some of them repeatedly.
+    fn points_drawn(&self) -> Box<dyn Iterator<Item = [f64; 3]> + '_> {
         match &self.shape {
             Shape::Mesh { mesh, .. } => {
-                Bounds::of(mesh.triangles.iter().flatten().map(|&v| point3(&mesh.points, v as usize)))
+                let corners = mesh.triangles.as_flattened().iter();
+                Box::new(corners.map(|&v| point3(&mesh.points, v as usize)))
             }
-            Shape::Lines { segments, .. } => Bounds::of(segments.iter().flatten().copied()),
-            Shape::Points { points, .. } => Bounds::of(points.iter().copied()),
+            Shape::Lines { segments, .. } => Box::new(segments.as_flattened().iter().copied()),
+            Shape::Points { points, .. } => Box::new(points.iter().copied()),
         }
     }
 
@@ -287,6 +293,16 @@ impl Scene {
     pub fn bounds(&self, explode: [f32; 3]) -> Option<Bounds> {
         Extents::new(self).bounds(explode)
     }
+
+    /// The points of all drawables, exploded by these factors.
+    pub(crate) fn points(&self, explode: [f32; 3]) -> impl Iterator<Item = [f64; 3]> + '_ {
+        let center = self.center();
+        self.drawables.iter().flat_map(move |d| {
+            let offset = d.group.map_or([0.0; 3], |g| difference(self.groups[g.0 as usize], center));
+            let shift = shift(offset, explode);
+            d.points_drawn().map(move |p| std::array::from_fn(|k| p[k] + shift[k]))
+        })
+    }
 }
 
 /// The boxes of a scene's drawables, for bounds of the exploded scene without reading its points again.
@@ -306,22 +322,24 @@ impl Extents {
             chosen.map(|(b, _)| *b).reduce(Bounds::union)
         };
         let center = around(true).or_else(|| around(false)).map_or([0.0; 3], |b| b.center());
-        let offset = |c: [f64; 3]| std::array::from_fn(|k| c[k] - center[k]);
+        let offset = |centroid| difference(centroid, center);
         let boxes = boxes.iter().map(|&(b, group)| (b, group.map_or([0.0; 3], offset))).collect();
         Self { center, boxes }
     }
 
-    /// The boxes of all drawables of the scene exploded by these factors.
-    pub(crate) fn boxes(&self, explode: [f32; 3]) -> impl Iterator<Item = Bounds> + '_ {
-        let shift =
-            move |offset: &[f64; 3]| std::array::from_fn(|k| (f64::from(explode[k]) - 1.0) * offset[k]);
-        self.boxes.iter().map(move |(b, offset)| b.moved(shift(offset)))
-    }
-
-    /// The box around them all.
+    /// The box around the scene exploded by these factors.
     pub(crate) fn bounds(&self, explode: [f32; 3]) -> Option<Bounds> {
-        self.boxes(explode).reduce(Bounds::union)
+        self.boxes.iter().map(|(b, offset)| b.moved(shift(*offset, explode))).reduce(Bounds::union)
     }
+}
+
+/// How far a group moves whose centroid lies at this offset from the centre.
+fn shift(offset: [f64; 3], explode: [f32; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| (f64::from(explode[k]) - 1.0) * offset[k])
+}
+
+fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| a[k] - b[k])
 }
 
 /// Point `i` of a set of two or three coordinates, in z = 0 when of two.

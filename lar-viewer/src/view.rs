@@ -1,6 +1,5 @@
 //! What is chosen anew for each picture: camera, explosion, opacity, background.
 
-use crate::scene::Extents;
 use crate::{Camera, Rgb, SLATE, Scene, ViewerError};
 
 /// Samples per pixel and axis when nothing else is asked for.
@@ -57,16 +56,10 @@ impl View {
     }
 
     /// The same view with the scene, as exploded, in the middle and filling the picture. An empty scene leaves the
-    /// view unchanged.
+    /// view unchanged. Takes time linear in the size of the scene.
     #[must_use]
     pub fn fit(self, scene: &Scene, aspect: f64) -> Self {
-        self.fit_extents(&Extents::new(scene), aspect)
-    }
-
-    /// The same for a scene whose extents are known.
-    pub(crate) fn fit_extents(self, extents: &Extents, aspect: f64) -> Self {
-        let corners = extents.boxes(self.explode).flat_map(|b| b.corners());
-        Self { camera: self.camera.fit_points(corners, aspect), ..self }
+        Self { camera: self.camera.fit_points(scene.points(self.explode), aspect), ..self }
     }
 
     /// Checks that all parameters are finite and in range.

@@ -23,6 +23,8 @@ const CELL_EDGE: u32 = 2;
 const EDGE_WIDTH: f32 = 0.12;
 /// Longer than anything in a scene, which has radius 1.
 const UNLIMITED: f32 = 1e6;
+/// Centroids are taken for no farther than this from the centre, in radii of the scene.
+const FARTHEST_CENTROID: f64 = 1e20;
 /// Radii below this are taken for points; the scene then keeps world units.
 const SMALLEST_RADIUS: f64 = 1e-90;
 
@@ -115,7 +117,7 @@ impl Batch {
     fn push(&mut self, drawable: &Drawable, scene: &Scene) {
         let part = u32::try_from(self.parts.len()).expect("memory ends before 2^32 drawables");
         let [r, g, b] = drawable.color;
-        let centroid = drawable.group.map_or([0.0; 3], |g| self.place(scene.groups()[g.0 as usize]));
+        let centroid = drawable.group.map_or([0.0; 3], |g| self.place_centroid(scene.groups()[g.0 as usize]));
         let flags = match &drawable.shape {
             Shape::Mesh { lit: true, .. } => LIT,
             Shape::Lines { cell_edges: true, .. } => CELL_EDGE,
@@ -151,6 +153,11 @@ impl Batch {
         }
     }
 
+    /// A centroid may lie anywhere, whatever the size of the scene, but its product with any explosion is to be finite.
+    fn place_centroid(&self, p: [f64; 3]) -> [f32; 3] {
+        self.placement.scene_from_world(p).map(|x| x.clamp(-FARTHEST_CENTROID, FARTHEST_CENTROID) as f32)
+    }
+
     fn place(&self, p: [f64; 3]) -> [f32; 3] {
         self.placement.scene_from_world(p).map(|x| x as f32)
     }
@@ -173,6 +180,7 @@ fn normal(corners: [[f32; 3]; 3]) -> Option<[i16; 4]> {
 mod tests {
     use super::*;
     use lar_core::Points;
+    use proptest::prelude::*;
 
     fn triangle(z: f64) -> TriangleMesh {
         let points = Points::from_xyz(&[[0., 0., z], [2., 0., z], [0., 2., z], [1., 0., z]]);
@@ -195,6 +203,36 @@ mod tests {
         assert_eq!(batch.parts.iter().map(|p| p.color[3]).collect::<Vec<_>>(), [1.0, 1.0, 0.5]);
         assert_eq!(batch.vertices.elements[3].part, 2);
         assert_eq!(batch.dots.n_opaque, 1);
+    }
+
+    /// A coordinate of any size that a scene takes.
+    fn coordinate() -> impl Strategy<Value = f64> {
+        (-1.0..=1.0_f64, -120..=100_i32).prop_map(|(x, e)| x * 10_f64.powi(e))
+    }
+
+    proptest! {
+        #[test]
+        fn all_numbers_are_finite_and_of_the_size_of_the_scene(
+            points in prop::collection::vec(prop::array::uniform3(coordinate()), 3..12),
+            centroid in prop::array::uniform3(coordinate()),
+        ) {
+            let mut scene = Scene::new();
+            let group = scene.push_group(centroid).unwrap();
+            let triangles = (2..points.len() as u32).map(|i| [0, i - 1, i]).collect();
+            let mesh = TriangleMesh { points: Points::from_xyz(&points), triangles };
+            scene.push(Drawable::mesh("mesh", mesh).group(group)).unwrap();
+            scene.push(Drawable::edges("edges", points.windows(2).map(|w| [w[0], w[1]])).group(group)).unwrap();
+            scene.push(Drawable::points("points", points)).unwrap();
+            let batch = Batch::new(&scene);
+            let lines = batch.lines.elements.iter().flat_map(|l| [l.start, l.end]);
+            let positions = batch.vertices.elements.iter().map(|v| v.position).chain(lines);
+            for x in positions.chain(batch.dots.elements.iter().map(|d| d.center)).flatten() {
+                prop_assert!(x.abs() <= 1.01, "{x}");
+            }
+            for x in batch.parts.iter().flat_map(|p| p.centroid) {
+                prop_assert!((1e6 * x).is_finite(), "{x}");
+            }
+        }
     }
 
     #[test]

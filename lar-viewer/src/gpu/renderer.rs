@@ -60,12 +60,6 @@ impl SceneBuffers {
             extents: batch.extents,
         })
     }
-
-    /// The boxes of its drawables.
-    #[cfg(feature = "window")]
-    pub(crate) fn extents(&self) -> &Extents {
-        &self.extents
-    }
 }
 
 impl Uploaded {

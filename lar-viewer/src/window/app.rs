@@ -15,7 +15,7 @@ const SIZE: LogicalSize<u32> = LogicalSize::new(1200, 760);
 
 /// The state of [`super::view`].
 pub(crate) struct App {
-    scene: Scene,
+    scene: Arc<Scene>,
     view: View,
     title: String,
     display: OwnedDisplayHandle,
@@ -25,7 +25,7 @@ pub(crate) struct App {
 
 impl App {
     pub(crate) fn new(scene: Scene, view: View, title: String, display: OwnedDisplayHandle) -> Self {
-        Self { scene, view, title, display, painter: None, result: Ok(()) }
+        Self { scene: Arc::new(scene), view, title, display, painter: None, result: Ok(()) }
     }
 
     /// The error that closed the window, if one did.

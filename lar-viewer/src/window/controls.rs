@@ -1,8 +1,8 @@
 //! The panel, the mouse and the keys: how input changes a view. Needs no window and no graphics card.
 
-use crate::View;
-use crate::scene::Extents;
+use crate::{Scene, View};
 use egui::{Key, PointerButton, Rect, Response, Ui};
+use std::sync::Arc;
 
 /// Range of the explode sliders.
 const EXPLODE: std::ops::RangeInclusive<f32> = 1.0..=5.0;
@@ -16,7 +16,7 @@ pub(crate) struct Controls {
     pub(crate) view: View,
     /// Shown at the foot of the panel: where the last screenshot went, or why not.
     pub(crate) message: String,
-    extents: Extents,
+    scene: Arc<Scene>,
     adapter: String,
 }
 
@@ -32,8 +32,8 @@ pub(crate) struct Asked {
 }
 
 impl Controls {
-    pub(crate) fn new(view: View, extents: Extents, adapter: String) -> Self {
-        Self { view, message: String::new(), extents, adapter }
+    pub(crate) fn new(view: View, scene: Arc<Scene>, adapter: String) -> Self {
+        Self { view, message: String::new(), scene, adapter }
     }
 
     /// Lays out panel and picture and applies the input.
@@ -60,7 +60,7 @@ impl Controls {
         }
         if fit || pressed(Key::F) {
             let aspect = f64::from(response.rect.width().max(1.0) / response.rect.height().max(1.0));
-            self.view = self.view.fit_extents(&self.extents, aspect);
+            self.view = self.view.fit(&self.scene, aspect);
         }
         Asked {
             area: response.rect,
@@ -134,7 +134,7 @@ impl Controls {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Drawable, Projection, Scene};
+    use crate::{Drawable, Projection};
     use egui::{Event, Modifiers, Pos2, RawInput, pos2, vec2};
 
     /// A panel without a window: events in, view out.
@@ -149,7 +149,7 @@ mod tests {
             let mut scene = Scene::new();
             scene.push(Drawable::lines("diagonal", [[[0.0; 3], [1.0, 2.0, 3.0]]])).unwrap();
             let view = View::fitted(&scene, [1.0; 3], 1.5);
-            let controls = Controls::new(view, Extents::new(&scene), "test".into());
+            let controls = Controls::new(view, Arc::new(scene), "test".into());
             let mut session = Self { context: egui::Context::default(), controls, time: 0.0 };
             session.frame(vec![]);
             session
@@ -242,7 +242,7 @@ mod tests {
     #[test]
     fn keys_fit_switch_projection_and_close() {
         let mut session = Session::new();
-        let fitted = session.controls.view.fit_extents(&session.controls.extents, 750.0 / 600.0);
+        let fitted = session.controls.view.fit(&session.controls.scene, 750.0 / 600.0);
         session.drag(PointerButton::Middle, pos2(100.0, 100.0), pos2(400.0, 300.0));
         assert!(!session.key(Key::F).close);
         let camera = session.controls.view.camera;

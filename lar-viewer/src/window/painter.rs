@@ -41,7 +41,7 @@ impl Painter {
     pub(crate) fn new(
         window: Arc<Window>,
         display: &OwnedDisplayHandle,
-        scene: &Scene,
+        scene: &Arc<Scene>,
         view: View,
     ) -> Result<Self, ViewerError> {
         let handle = Box::new(display.clone());
@@ -51,17 +51,17 @@ impl Painter {
         let adapter = best_adapter(&instance, Some(&surface))?;
         let mut renderer = Renderer::new(Context::on(&adapter)?)?;
         let config = configuration(&surface, &adapter, &window)?;
-        let scene = SceneBuffers::new(&renderer.context, scene)?;
+        let buffers = SceneBuffers::new(&renderer.context, scene)?;
         let options = egui_wgpu::RendererOptions::default();
         let mut egui_renderer = egui_wgpu::Renderer::new(&renderer.context.device, config.format, options);
         // A first picture of one pixel, so that egui has a texture to name.
-        let first = renderer.draw(&scene, &view, 1, 1)?.picture_view.clone();
+        let first = renderer.draw(&buffers, &view, 1, 1)?.picture_view.clone();
         let picture = egui_renderer.register_native_texture(
             &renderer.context.device,
             &first,
             wgpu::FilterMode::Nearest,
         );
-        let controls = Controls::new(view, scene.extents().clone(), renderer.context.adapter_name.clone());
+        let controls = Controls::new(view, Arc::clone(scene), renderer.context.adapter_name.clone());
         let max_side = usize::try_from(renderer.context.limits.max_texture_dimension_2d).ok();
         let scale = Some(window.scale_factor() as f32);
         let context = egui::Context::default();
@@ -74,7 +74,7 @@ impl Painter {
             surface,
             config,
             renderer,
-            scene,
+            scene: buffers,
             controls,
             egui,
             egui_renderer,
