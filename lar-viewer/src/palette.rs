@@ -49,6 +49,19 @@ pub enum Coloring {
 }
 
 impl Coloring {
+    /// The meaning of a colour code for a family of cells: 1 to 12 name a colour for all, any other code asks for
+    /// cyclic colours.
+    ///
+    /// ```
+    /// use lar_viewer::Coloring;
+    /// assert_eq!(Coloring::from_code(1), Coloring::Code(1));
+    /// assert_eq!(Coloring::from_code(99), Coloring::Cyclic);
+    /// ```
+    #[must_use]
+    pub fn from_code(code: u32) -> Self {
+        if (1..=PALETTE.len() as u32).contains(&code) { Self::Code(code) } else { Self::Cyclic }
+    }
+
     /// The colour of the cell with this index in its family.
     ///
     /// ```

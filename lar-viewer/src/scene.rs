@@ -63,6 +63,7 @@ impl Drawable {
     }
 
     /// Segments of constant width on the screen.
+    #[doc(alias = "GLLines")]
     #[must_use]
     pub fn lines(name: impl Into<String>, segments: impl IntoIterator<Item = [[f64; 3]; 2]>) -> Self {
         let segments = segments.into_iter().collect();
@@ -78,6 +79,7 @@ impl Drawable {
     }
 
     /// Round dots of constant size on the screen.
+    #[doc(alias = "GLPoints")]
     #[must_use]
     pub fn points(name: impl Into<String>, points: impl IntoIterator<Item = [f64; 3]>) -> Self {
         Self::new(name, Shape::Points { points: points.into_iter().collect(), size: 6.0 }, crate::INK)

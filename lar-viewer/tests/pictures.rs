@@ -3,7 +3,8 @@ mod support;
 
 use lar_core::{Points, TriangleMesh};
 use lar_viewer::{
-    CellStyle, Coloring, Drawable, OffscreenRenderer, Scene, View, ViewerError, WHITE, push_axes, push_cells,
+    CellStyle, Coloring, Drawable, OffscreenRenderer, Scene, View, ViewerError, WHITE, palette_color,
+    push_axes, push_cells,
 };
 use support::{check_picture, cube_grid, cuboid, renderer};
 
@@ -85,6 +86,38 @@ fn transparency_does_not_depend_on_the_order_of_drawing() {
     for view in [view, in_place] {
         assert_eq!(draw(&mut renderer, &scene, &view), draw(&mut renderer, &permuted, &view));
     }
+}
+
+/// Random triangles through each other, in one order and in another.
+#[test]
+fn random_triangles_blend_the_same_in_any_order() {
+    let Some(renderer) = renderer() else { return };
+    let renderer = std::cell::RefCell::new(renderer);
+    let mut runner = proptest::test_runner::TestRunner::new(proptest::test_runner::Config::with_cases(12));
+    let corner = || proptest::array::uniform3(-1.0..1.0_f64);
+    let triangle = (proptest::array::uniform3(corner()), 0.05..1.0_f32, 0..12_u32);
+    let triangles = proptest::collection::vec(triangle, 1..40);
+    let result = runner.run(&(triangles, 0..39_usize), |(mut triangles, turn)| {
+        let build = |triangles: &[([[f64; 3]; 3], f32, u32)]| {
+            let mut scene = Scene::new();
+            for (corners, opacity, code) in triangles {
+                let mesh = TriangleMesh { points: Points::from_xyz(corners), triangles: vec![[0, 1, 2]] };
+                let color = palette_color(*code);
+                scene.push(Drawable::mesh("triangle", mesh).color(color).opacity(*opacity)).unwrap();
+            }
+            scene
+        };
+        let first = build(&triangles);
+        let view = View { samples: 1, ..View::fitted(&first, [1.0; 3], ASPECT) };
+        let n = triangles.len();
+        triangles.rotate_left(turn % n);
+        triangles.iter_mut().for_each(|t| t.0.rotate_right(1));
+        let second = build(&triangles);
+        let renderer = &mut *renderer.borrow_mut();
+        assert!(draw(renderer, &first, &view) == draw(renderer, &second, &view));
+        Ok(())
+    });
+    result.unwrap();
 }
 
 /// The same cells in the same colours, pushed backwards, with triangles and their vertices in another order.

@@ -62,12 +62,7 @@ impl Painter {
             wgpu::FilterMode::Nearest,
         );
         let controls = Controls::new(view, Arc::clone(scene), renderer.context.adapter_name.clone());
-        let max_side = usize::try_from(renderer.context.limits.max_texture_dimension_2d).ok();
-        let scale = Some(window.scale_factor() as f32);
-        let context = egui::Context::default();
-        let egui =
-            egui_winit::State::new(context, egui::ViewportId::ROOT, &window, scale, window.theme(), max_side);
-        let drawn = None;
+        let egui = egui_state(&window, &renderer.context);
         let mut painter = Self {
             window,
             instance,
@@ -79,7 +74,7 @@ impl Painter {
             egui,
             egui_renderer,
             picture,
-            drawn,
+            drawn: None,
         };
         let size = painter.window.inner_size();
         painter.resize(size.width, size.height);
@@ -230,6 +225,13 @@ impl Painter {
         self.window.request_redraw();
         Ok(None)
     }
+}
+
+fn egui_state(window: &Window, context: &Context) -> egui_winit::State {
+    let max_side = usize::try_from(context.limits.max_texture_dimension_2d).ok();
+    let scale = Some(window.scale_factor() as f32);
+    let root = egui::ViewportId::ROOT;
+    egui_winit::State::new(egui::Context::default(), root, window, scale, window.theme(), max_side)
 }
 
 fn new_surface(
