@@ -61,6 +61,13 @@ impl Grid {
         self.origin.map(|o| scaled(o, -self.exponent) as i128)
     }
 
+    /// The larger of a step and of what separates neighbouring `f64` at the model's distance from 0, in steps:
+    /// far from 0 the input itself is coarser than the grid.
+    pub(crate) fn coarseness(&self) -> f64 {
+        let farthest = self.origin.map(|o| scaled(o.abs(), -self.exponent)).into_iter().fold(0.0, f64::max);
+        (farthest * f64::EPSILON).max(1.0)
+    }
+
     /// A coordinate in steps from 0 as a length. Exact unless the result is subnormal.
     pub(crate) fn length(&self, steps: f64) -> f64 {
         scaled(steps, self.exponent)
@@ -111,6 +118,14 @@ mod tests {
         check([0.0; 3], [0.0; 3]);
         check([5.0; 3], [5.0; 3]);
         check([f64::MIN_POSITIVE; 3], [f64::MIN_POSITIVE * 3.0; 3]);
+    }
+
+    #[test]
+    fn far_from_zero_the_input_is_coarser_than_the_grid() {
+        assert_eq!(check([-1.0; 3], [1.0; 3]).coarseness(), 1.0);
+        let far = check([1e6, 0.0, 0.0], [1e6 + 2.0, 2.0, 2.0]);
+        assert!(far.coarseness() * far.step() <= 1e6 * f64::EPSILON * 1.01);
+        assert!(far.coarseness() > 50.0);
     }
 
     #[test]

@@ -49,8 +49,8 @@ pub(crate) struct Soup {
 impl Soup {
     /// Snaps and unifies; refuses non-finite coordinates and indices out of range.
     ///
-    /// Polygons whose corners deviate from a plane by more than `flatness` grid steps are not treated as planar:
-    /// their diagonals become edges of the result.
+    /// Polygons whose corners deviate from a plane by more than `flatness` grid steps (or neighbouring `f64`, far
+    /// from 0) are not treated as planar: their diagonals become edges of the result.
     pub(crate) fn new(surfaces: &[Surface], flatness: f64) -> Result<Self, ArrangementError> {
         let grid = fitted_grid(surfaces)?;
         let (points, point_of) = unified_points(surfaces, &grid);
@@ -71,7 +71,7 @@ impl Soup {
             edge_ids: FxHashMap::default(),
             triangle_ids: FxHashMap::default(),
             polygon_ids: FxHashMap::default(),
-            flatness,
+            flatness: flatness * grid.coarseness(),
         };
         for (solid, (surface, point_of)) in surfaces.iter().zip(&point_of).enumerate() {
             for face in 0..surface.n_faces() {

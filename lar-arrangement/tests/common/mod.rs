@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "every test binary uses a part of it")]
 
 use lar_arrangement::{Arrangement, Arranger, Checks};
-use lar_core::{Affine, Points, Struct, Surface};
+use lar_core::{Affine, Points, Struct, Surface, cuboid_grid, r, rotation, t};
 
 /// SplitMix64 (Steele, Lea, Flood 2014).
 pub(crate) struct Random(pub(crate) u64);
@@ -167,4 +167,34 @@ pub(crate) fn relabelled(surfaces: &[Surface], seed: u64) -> Vec<(&'static str, 
         ("all faces flipped", surfaces.iter().map(flipped).collect()),
         ("faces of the first solid flipped", one),
     ]
+}
+
+/// The scene of the 2019 paper's section 6.2.
+pub(crate) fn three_cubes() -> Struct {
+    let (pi, cube) = (std::f64::consts::PI, cuboid_grid(&[1, 1, 1]));
+    Struct::new("three cubes")
+        .with(cube.clone())
+        .with(t(&[0.3, 0.4, 0.25]))
+        .with(r([pi / 5.0, 0.0, 0.0]))
+        .with(r([0.0, 0.0, pi / 12.0]))
+        .with(cube.clone())
+        .with(t(&[-0.2, 0.4, -0.2]))
+        .with(r([0.0, pi / 5.0, 0.0]))
+        .with(r([0.0, pi / 12.0, 0.0]))
+        .with(cube)
+}
+
+/// `n` cubes of edge 0.3 to 1.3 about the origin, turned at random; also their edges' lengths.
+pub(crate) fn random_cubes(n: usize, random: &mut Random) -> (Vec<Surface>, Vec<f64>) {
+    (0..n)
+        .map(|_| {
+            let size = random.between(0.3, 1.3);
+            let axis = [0; 3].map(|_| random.between(-1.0, 1.0));
+            let turn = rotation(axis, random.between(0.0, 3.0)).expect("the axis is not zero");
+            let at = [0; 3].map(|_| random.between(-0.8, 0.8));
+            let half = size / 2.0;
+            let placed = t(&at).compose(&turn).expect("both are maps of 3-space");
+            (cuboid([-half; 3], [half; 3]).transformed(&placed).expect("a map of 3-space"), size)
+        })
+        .unzip()
 }
