@@ -11,6 +11,7 @@ use crate::kernel::{Along, Direction, Geometry, Sign, Support, Vertex};
 use crate::soup::Soup;
 use crate::split::Cuts;
 use crate::subdivision::{Embedding, Subdivision};
+use std::cell::OnceCell;
 use std::cmp::Ordering;
 
 /// A piece of an edge, from `ends[0]` to `ends[1]`; vertices from `n_base` on are new ones of the same chunk.
@@ -146,6 +147,8 @@ struct Local<'a> {
     pieces: Vec<Piece>,
     /// Uses of the first pieces; cuts have none.
     uses: Vec<Vec<Use>>,
+    /// Boxes of the pieces, built when a component has to be located.
+    boxes: OnceCell<BoxTree>,
 }
 
 impl<'a> Local<'a> {
@@ -168,7 +171,16 @@ impl<'a> Local<'a> {
         for &v in &known {
             interner.push(from.vertices[v as usize]);
         }
-        Self { from, group, uv, known, interner, pieces: Vec::new(), uses: Vec::new() }
+        Self {
+            from,
+            group,
+            uv,
+            known,
+            interner,
+            pieces: Vec::new(),
+            uses: Vec::new(),
+            boxes: OnceCell::new(),
+        }
     }
 
     fn geometry(&self) -> &'a Geometry {
@@ -491,14 +503,22 @@ impl Embedding for Local<'_> {
         let geometry = self.geometry();
         let at = self.vertex(vertex);
         let start = geometry.midpoint(at, at);
+        let boxes = self.boxes.get_or_init(|| {
+            let ends = |p: &Piece| p.ends.map(|v| self.vertex(v).at);
+            BoxTree::new(&self.pieces.iter().map(|p| Aabb::around(ends(p))).collect::<Vec<_>>())
+        });
+        let mut beam = Aabb { lo: [f64::NEG_INFINITY; 3], hi: [f64::INFINITY; 3] };
+        beam.hi[u] = at.at[u];
+        (beam.lo[v], beam.hi[v]) = (at.at[v], at.at[v]);
         let mut nearest: Option<u32> = None;
-        for (piece, id) in self.pieces.iter().zip(0..) {
+        boxes.query(&beam, |id| {
+            let piece = &self.pieces[id as usize];
             if component_of[piece.ends[0] as usize] == component {
-                continue;
+                return;
             }
             let below = piece.ends.map(|p| geometry.cmp_coordinate(self.vertex(p), at, v).is_le());
             if below[0] == below[1] {
-                continue;
+                return;
             }
             // The half-edge that leads down has the vertex on its left when the vertex is to its right.
             let down = 2 * id + u32::from(below[0]);
@@ -508,7 +528,7 @@ impl Embedding for Local<'_> {
             {
                 nearest = Some(down);
             }
-        }
+        });
         nearest
     }
 }
