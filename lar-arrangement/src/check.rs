@@ -137,16 +137,41 @@ pub(crate) fn arrangement(a: &Arrangement) -> Result<(), Failure> {
     if let Some(face) = (0..a.n_faces() as u32).map(FaceId).find(|&f| a.parents(f).is_empty()) {
         return fail(stage, format!("face {face} has no parent"));
     }
-    // Rounding the vertices may move a face by a grid step: a cell's volume is known to its surface times that.
     let volumes = a.volumes();
-    let mut slack = vec![0.0; volumes.len()];
-    for (face, cells) in (0..).map(FaceId).zip(&a.cells_of_face) {
-        cells.iter().for_each(|&c| slack[c as usize] += a.area(face) * 4.0 * a.stats.grid_step);
-    }
-    for (cell, (&volume, slack)) in volumes.iter().zip(slack).enumerate().skip(1) {
+    for (cell, (&volume, slack)) in volumes.iter().zip(volume_slack(a)).enumerate().skip(1) {
         if volume < -slack {
             return fail(stage, format!("cell {cell} has volume {volume:e}"));
         }
     }
     Ok(())
+}
+
+/// By how much rounding may change the volume of each cell.
+///
+/// Faces are moved by less than a grid step, which sweeps their surface and a strip along their border times that.
+/// The volume is then evaluated as a sum over corners of (difference × difference) · difference, six roundings of
+/// 2^-53 each: differences in a face are below its perimeter, those between faces below the model's diameter.
+fn volume_slack(a: &Arrangement) -> Vec<f64> {
+    let points = a.complex.points();
+    let diameter = points.bounds().map_or(0.0, |(lo, hi)| distance(&lo, &hi));
+    let step = a.stats.grid_step;
+    let mut slack = vec![0.0; a.n_cells()];
+    for (face, cells) in (0..).map(FaceId).zip(&a.cells_of_face) {
+        let (mut perimeter, mut corners) = (0.0, 0.0);
+        for cycle in a.face_vertices(face) {
+            for (i, &v) in cycle.iter().enumerate() {
+                let w = cycle[(i + 1) % cycle.len()];
+                perimeter += distance(points.point(v as usize), points.point(w as usize));
+                corners += 1.0;
+            }
+        }
+        let moved = (a.area(face) + perimeter * step) * 4.0 * step;
+        let evaluated = corners * perimeter * perimeter * diameter * 2f64.powi(-50);
+        cells.iter().for_each(|&c| slack[c as usize] += moved + evaluated);
+    }
+    slack
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| (x - y).powi(2)).sum::<f64>().sqrt()
 }

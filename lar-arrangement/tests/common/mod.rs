@@ -1,7 +1,7 @@
 //! What the tests of arrangements share: random numbers, scenes, exact variants of a scene, and its counts.
 #![allow(dead_code, reason = "every test binary uses a part of it")]
 
-use lar_arrangement::{Arrangement, Arranger, Checks};
+use lar_arrangement::{Arrangement, ArrangementError, Arranger, Checks};
 use lar_core::{Affine, Points, Struct, Surface, cuboid_grid, r, rotation, t};
 
 /// SplitMix64 (Steele, Lea, Flood 2014).
@@ -56,9 +56,14 @@ pub(crate) fn cuboid(lo: [f64; 3], hi: [f64; 3]) -> Surface {
 }
 
 /// All stages checked.
+pub(crate) fn arrange_checked(surfaces: &[Surface]) -> Result<Arrangement, ArrangementError> {
+    Arranger::new().checks(Checks::EveryStage).arrange(surfaces)
+}
+
+/// All stages checked; panics when one does not hold.
 #[track_caller]
 pub(crate) fn arranged(surfaces: &[Surface]) -> Arrangement {
-    Arranger::new().checks(Checks::EveryStage).arrange(surfaces).unwrap_or_else(|e| panic!("{e}"))
+    arrange_checked(surfaces).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// Vertices, edges, faces, cells.
