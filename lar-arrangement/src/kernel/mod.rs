@@ -3,20 +3,22 @@
 //! Every predicate is first tried in `f64` with a bound on its error; what the bound cannot decide goes at once to
 //! fixed-width integers. Nothing here has an epsilon: constants are error bounds, derived where they stand.
 //!
-//! Bit budget, for grid coordinates |x| ≤ 2^40 (b = 40):
+//! Bit budget, for grid coordinates |x| ≤ 2^40 (b = 40). Every quantity is affine in each single coordinate of the
+//! input, so the first eight are largest at the corners of the cube |x| ≤ 2^40, where a test finds these maxima; the
+//! others are bounded by sums of their products.
 //!
 //! | quantity | bits |
 //! |---|---|
-//! | difference of coordinates | 41 |
+//! | difference of coordinates | 42 |
 //! | component of a facet's normal | 83 |
-//! | offset of a facet's plane, side of a grid point | 126 |
-//! | line ∩ plane: coordinates, denominator | 168, 127 |
-//! | direction of the line of two facet planes | 168 |
-//! | three planes: coordinates, denominator | 296, 253 |
-//! | side of a three-plane point against a plane | 381 |
-//! | order of two three-plane points along an axis | 550 |
-//! | orientation of three three-plane points in a projection | 846 |
-//! | the same with the midpoint of two of them | 1100 |
+//! | offset of a facet's plane, side of a grid point | 125 |
+//! | line ∩ plane: coordinates, denominator | 165, 125 |
+//! | direction of the line of two facet planes | 166 |
+//! | three planes: coordinates, denominator | 289, 249 |
+//! | side of a three-plane point against a plane | 373 |
+//! | order of two three-plane points along an axis | 538 |
+//! | orientation of three three-plane points in a projection | 827 |
+//! | the same with the midpoint of two of them | 1076 |
 
 mod double;
 mod int;

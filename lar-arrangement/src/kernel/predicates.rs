@@ -263,8 +263,9 @@ impl Geometry {
                 let (m, n) = (self.normal(f), self.normal(g));
                 let largest = |v: [f64; 3]| v[0].abs().max(v[1].abs()).max(v[2].abs());
                 let cross = [m[1] * n[2] - m[2] * n[1], m[2] * n[0] - m[0] * n[2], m[0] * n[1] - m[1] * n[0]];
-                // Each of two products carries three roundings of 2^-53, the difference one more.
-                (cross, largest(m) * largest(n) * 2f64.powi(-50))
+                // Each of two products carries three roundings of 2^-53, their difference, which may be as large as
+                // both together, one more: 8 · 2^-53 and terms of 2^-104, for which the bound is doubled.
+                (cross, largest(m) * largest(n) * 2f64.powi(-49))
             }
         };
         Direction { along, reversed: false, float, error }
