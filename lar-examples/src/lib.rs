@@ -1,1 +1,33 @@
-//! Example scenes.
+//! Example scenes, the figures drawn from them, and the programs `lar` and `three_cubes`.
+//!
+//! The programs are functions of this library with thin mains, so that tests and other programs call the same
+//! code: [`command::run`] is `lar`, [`three_cubes::run`] is `three_cubes`. Neither prints except to the writers that
+//! it is given.
+//!
+//! ```
+//! use lar_examples::scenes;
+//! let surfaces = scenes::surfaces(&scenes::three_cubes())?;
+//! let arrangement = lar_arrangement::arrange(&surfaces)?;
+//! assert_eq!(arrangement.complex().f_vector(), [49, 88, 47, 8]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Features: `viewer` (default) draws pictures off-screen, `window` (default) opens windows. Without them no graphics
+//! crate is built, and the commands that need one say so.
+
+pub mod checks;
+pub mod command;
+mod error;
+#[cfg(feature = "viewer")]
+pub mod figures;
+mod mesh;
+mod output;
+mod program;
+pub mod scenes;
+#[cfg(feature = "viewer")]
+mod shapes;
+mod size;
+pub mod tables;
+pub mod three_cubes;
+
+pub use error::CommandError;

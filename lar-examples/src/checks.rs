@@ -1,0 +1,103 @@
+//! Checks of an arrangement against its input and against the laws of chain complexes.
+
+use lar_arrangement::Arrangement;
+use lar_core::{FaceId, Surface, Violation};
+
+/// Relative difference that is allowed between the area of an input face and the sum of its pieces: rounding in sums
+/// of a few thousand terms.
+const AREA_TOLERANCE: f64 = 1e-9;
+
+/// Grid steps by which a corner may move: half a step each way when it is snapped, the same when the result is
+/// rounded, and as much in each of three directions.
+const SNAPPING_STEPS: f64 = 4.0;
+
+type Vec3 = [f64; 3];
+
+/// True when each face of the arrangement has a parent, and the vector areas of the pieces of each input face, taken
+/// with their relative signs, add up to its own: within 1e-9 of the area plus what snapping to the grid can change.
+///
+/// `surfaces` are those that were arranged. O(size of both).
+#[must_use]
+pub fn parents_ok(arrangement: &Arrangement, surfaces: &[Surface]) -> bool {
+    let mut sums: Vec<Vec<Vec3>> = surfaces.iter().map(|s| vec![[0.0; 3]; s.n_faces()]).collect();
+    for face in (0..).map(FaceId).take(arrangement.n_faces()) {
+        let parents = arrangement.parents(face);
+        if parents.is_empty() {
+            return false;
+        }
+        let area = arrangement.vector_area(face);
+        for parent in parents {
+            let entry = sums.get_mut(parent.solid as usize).and_then(|s| s.get_mut(parent.face as usize));
+            let Some(sum) = entry else { return false };
+            *sum = std::array::from_fn(|k| sum[k] + f64::from(parent.sign) * area[k]);
+        }
+    }
+    let step = arrangement.stats().grid_step;
+    surfaces.iter().zip(&sums).all(|(surface, sums)| {
+        (0..surface.n_faces()).zip(sums).all(|(f, &sum)| {
+            let (area, perimeter) = measures(surface, f);
+            let slack = AREA_TOLERANCE * length(area) + SNAPPING_STEPS * step * perimeter;
+            length(sub(area, sum)) <= slack
+        })
+    })
+}
+
+/// True when ∂p·∂p+1 = 0 for all p.
+#[must_use]
+pub fn boundary_squared_zero(complex: &lar_core::ChainComplex) -> bool {
+    let breaks = |v: &Violation| {
+        matches!(v, Violation::Square { .. } | Violation::Shape { .. } | Violation::Storage { .. })
+    };
+    !complex.validate().iter().any(breaks)
+}
+
+/// The vector area of an input face, its holes counted against it, and the length of all its loops.
+fn measures(surface: &Surface, face: usize) -> (Vec3, f64) {
+    let (mut area, mut perimeter) = ([0.0; 3], 0.0);
+    for cycle in surface.face(face) {
+        let Some(&first) = cycle.first() else { continue };
+        let origin = surface.points.xyz(first as usize);
+        for (i, &v) in cycle.iter().enumerate() {
+            let next = cycle[(i + 1) % cycle.len()];
+            let [a, b] = [v, next].map(|v| sub(surface.points.xyz(v as usize), origin));
+            let c = cross(a, b);
+            area = std::array::from_fn(|k| area[k] + c[k] / 2.0);
+            perimeter += length(sub(b, a));
+        }
+    }
+    (area, perimeter)
+}
+
+fn sub(a: Vec3, b: Vec3) -> Vec3 {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+
+fn cross(a: Vec3, b: Vec3) -> Vec3 {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn length(a: Vec3) -> f64 {
+    a[0].hypot(a[1]).hypot(a[2])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenes::{surfaces, three_cubes};
+    use lar_arrangement::arrange;
+    use lar_core::{s, t};
+
+    #[test]
+    fn pieces_of_another_input_do_not_add_up() {
+        let input = surfaces(&three_cubes()).unwrap();
+        let arrangement = arrange(&input).unwrap();
+        assert!(parents_ok(&arrangement, &input));
+        assert!(boundary_squared_zero(arrangement.complex()));
+        let mut larger = input.clone();
+        larger[1] = larger[1].transformed(&s(&[1.0, 1.0, 1.0 + 1e-8])).unwrap();
+        assert!(!parents_ok(&arrangement, &larger));
+        assert!(!parents_ok(&arrangement, &input[..2]));
+        let moved: Vec<_> = input.iter().map(|s| s.transformed(&t(&[1.0, 2.0, 3.0])).unwrap()).collect();
+        assert!(parents_ok(&arrangement, &moved), "areas do not depend on the place");
+    }
+}

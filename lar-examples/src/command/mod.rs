@@ -1,0 +1,65 @@
+//! The command `lar`: arrangements and Booleans of OBJ files, pictures of them, facts about files.
+//!
+//! ```text
+//! lar arrange INPUT... [--json PATH|-] [--complex PATH] [--obj DIR] [--threads N]
+//! lar boolean EXPR INPUT... -o OUT [--json PATH|-] [--fill RULE] [--keep-fragments] [--threads N]
+//! lar render INPUT... -o OUT.png [--explode S | SX,SY,SZ] [--alpha A] [--size WxH] [--cells all|solid]
+//! lar view INPUT... [--explode S | SX,SY,SZ] [--alpha A] [--cells all|solid]
+//! lar info INPUT
+//! ```
+//!
+//! Exit codes: 0 done, 2 bad input or usage, 3 no graphics adapter or display. An error is one line on the error
+//! stream; files are written whole or not at all, and nothing is computed for an output that cannot be written.
+
+mod arrange;
+mod boolean;
+mod info;
+mod input;
+mod picture;
+mod report;
+
+use crate::{CommandError, program};
+use clap::{Parser, Subcommand};
+use std::ffi::OsString;
+use std::io::Write;
+
+/// Arrangements and Booleans of polygonal surfaces, exactly.
+#[derive(Debug, Parser)]
+#[command(name = "lar", version)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Arrange(arrange::Arrange),
+    Boolean(boolean::Boolean),
+    Render(picture::Render),
+    View(picture::Window),
+    Info(info::Info),
+}
+
+/// Runs the command: `args` begin with the program's name, results go to `out`, an error is one line on `err`.
+/// Returns the exit code.
+///
+/// ```
+/// let (mut out, mut err) = (Vec::new(), Vec::new());
+/// let code = lar_examples::command::run(["lar", "info", "no.obj"].map(Into::into), &mut out, &mut err);
+/// assert_eq!(code, 2);
+/// assert!(String::from_utf8(err)?.starts_with("lar: cannot read no.obj: "));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn run(args: impl IntoIterator<Item = OsString>, out: &mut dyn Write, err: &mut dyn Write) -> u8 {
+    program::run(args, out, err, dispatch)
+}
+
+fn dispatch(arguments: Arguments, out: &mut dyn Write) -> Result<(), CommandError> {
+    match arguments.command {
+        Command::Arrange(arrange) => arrange.run(out),
+        Command::Boolean(boolean) => boolean.run(out),
+        Command::Render(render) => render.run(out),
+        Command::View(window) => window.run(),
+        Command::Info(info) => info.run(out),
+    }
+}

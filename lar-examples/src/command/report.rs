@@ -1,0 +1,104 @@
+//! Parts that the reports of several commands share.
+
+use crate::CommandError;
+use lar_arrangement::{Arrangement, Arranger, Closure};
+use lar_core::Surface;
+use serde::{Serialize, Serializer};
+use std::num::NonZeroUsize;
+use std::time::{Duration, Instant};
+
+/// How many threads a command uses.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(crate) struct Threads {
+    /// Number of threads; all processors when not given. The result does not depend on it.
+    #[arg(long = "threads", value_name = "N", value_parser = threads, allow_hyphen_values = true)]
+    threads: Option<NonZeroUsize>,
+}
+
+impl Threads {
+    pub(crate) fn count(self) -> NonZeroUsize {
+        let all = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+        self.threads.unwrap_or_else(all)
+    }
+
+    /// The arrangement of the surfaces, and the time it took.
+    pub(crate) fn arrange(self, surfaces: &[Surface]) -> Result<(Arrangement, Duration), CommandError> {
+        let start = Instant::now();
+        let arrangement = Arranger::new().threads(self.count()).arrange(surfaces)?;
+        Ok((arrangement, start.elapsed()))
+    }
+}
+
+fn threads(text: &str) -> Result<NonZeroUsize, &'static str> {
+    text.parse().map_err(|_| "a number of threads is a whole number of at least 1")
+}
+
+/// An operand in a report.
+#[derive(Debug, Serialize)]
+pub(crate) struct Operand {
+    name: String,
+    file: String,
+    faces: usize,
+    closure: &'static str,
+}
+
+impl Operand {
+    pub(crate) fn all(arrangement: &Arrangement, operands: &super::input::Operands) -> Vec<Self> {
+        let one = |(solid, (surface, file)): (usize, (&Surface, &std::path::PathBuf))| Self {
+            name: surface.name.clone(),
+            file: file.display().to_string(),
+            faces: surface.n_faces(),
+            closure: match arrangement.closure(solid) {
+                Closure::Closed => "closed",
+                Closure::Unoriented => "unoriented",
+                Closure::Open => "open",
+            },
+        };
+        operands.surfaces.iter().zip(&operands.files).enumerate().map(one).collect()
+    }
+
+    /// What a reader should know of an operand that is not a proper solid.
+    pub(crate) fn warning(&self) -> Option<String> {
+        match self.closure {
+            "open" => Some(format!("{} ({}) is open: no cell is inside it", self.name, self.file)),
+            "unoriented" => Some(format!("{} ({}) is not oriented consistently", self.name, self.file)),
+            _ => None,
+        }
+    }
+}
+
+/// Seconds of each stage of an arrangement, in their order.
+#[derive(Debug)]
+pub(crate) struct Stages(Vec<(&'static str, Duration)>);
+
+impl Stages {
+    pub(crate) fn of(arrangement: &Arrangement) -> Self {
+        Self(arrangement.stats().stages.clone())
+    }
+}
+
+impl Serialize for Stages {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, time)| (name, time.as_secs_f64())))
+    }
+}
+
+/// `1 face`, `2 faces`.
+pub(crate) fn counted(n: usize, noun: &str) -> String {
+    let ending = if n == 1 { "" } else { "s" };
+    match noun.strip_suffix("ex") {
+        Some(stem) if n != 1 => format!("{n} {stem}ices"),
+        _ => format!("{n} {noun}{ending}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::counted;
+
+    #[test]
+    fn plurals() {
+        let texts = [counted(1, "vertex"), counted(2, "vertex"), counted(1, "face"), counted(0, "face")];
+        assert_eq!(texts, ["1 vertex", "2 vertices", "1 face", "0 faces"]);
+    }
+}

@@ -1,0 +1,116 @@
+//! What the commands refuse, and the exit codes.
+
+use lar_arrangement::{ArrangementError, BooleanError, ExpressionError};
+use lar_core::{FileError, JsonError, ObjError};
+use lar_triangle::TriangulateError;
+use std::io;
+use std::path::PathBuf;
+
+/// Why a command ends without its result. The message is one line; [`exit_code`](Self::exit_code) tells a missing
+/// graphics adapter from everything else.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CommandError {
+    /// The arguments are not what the command takes.
+    #[error("{0}")]
+    Usage(String),
+    /// An input file cannot be read, or an OBJ file cannot be written.
+    #[error(transparent)]
+    Obj(#[from] ObjError),
+    /// A chain complex cannot be read or written.
+    #[error(transparent)]
+    Json(#[from] JsonError),
+    /// A file cannot be written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A file or directory cannot be written.
+    #[error("cannot write {}: {source}", .path.display())]
+    Write {
+        /// The path.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The directory for the cells has something in it that would be lost.
+    #[error("cannot write {}: the directory is not empty", .path.display())]
+    NotEmpty {
+        /// The directory.
+        path: PathBuf,
+    },
+    /// Two operands have one name.
+    #[error("two operands are named {name}: {} and {}", .files[0].display(), .files[1].display())]
+    SameName {
+        /// The name.
+        name: String,
+        /// Their files.
+        files: [PathBuf; 2],
+    },
+    /// An input is a chain complex where surfaces are needed.
+    #[error("{}: a chain complex cannot be an operand; operands are OBJ files", .path.display())]
+    NotASurface {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The input cannot be arranged.
+    #[error(transparent)]
+    Arrangement(#[from] ArrangementError),
+    /// The text is not an expression over the operands.
+    #[error(transparent)]
+    Expression(#[from] ExpressionError),
+    /// An operand is no solid.
+    #[error("{}{source}", file.as_ref().map_or(String::new(), |f| format!("{}: ", f.display())))]
+    Boolean {
+        /// Its file, when it comes from one.
+        file: Option<PathBuf>,
+        /// What is wrong with it.
+        source: BooleanError,
+    },
+    /// Two outputs of one command go to the same place.
+    #[error("two outputs go to {}", .path.display())]
+    SameOutput {
+        /// The place.
+        path: PathBuf,
+    },
+    /// An example scene gives no surfaces.
+    #[error(transparent)]
+    Scene(#[from] crate::scenes::SceneError),
+    /// Faces cannot be triangulated.
+    #[error(transparent)]
+    Triangulate(#[from] TriangulateError),
+    /// A picture cannot be drawn or a window opened.
+    #[cfg(feature = "viewer")]
+    #[error(transparent)]
+    Viewer(#[from] lar_viewer::ViewerError),
+    /// The program was built without what the command needs.
+    #[error("this build has no {feature}; build it with `--features {feature}`")]
+    NotBuilt {
+        /// The cargo feature.
+        feature: &'static str,
+    },
+    /// Results cannot be printed.
+    #[error("cannot write to the standard output: {0}")]
+    Print(#[from] io::Error),
+    /// Results cannot be put into JSON.
+    #[error("cannot write the report as JSON: {0}")]
+    Report(#[from] serde_json::Error),
+}
+
+impl From<BooleanError> for CommandError {
+    fn from(source: BooleanError) -> Self {
+        Self::Boolean { file: None, source }
+    }
+}
+
+impl CommandError {
+    /// 3 when there is no graphics adapter or display, 2 for bad input or usage and everything else.
+    #[must_use]
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            #[cfg(feature = "viewer")]
+            Self::Viewer(lar_viewer::ViewerError::NoAdapter { .. }) => 3,
+            #[cfg(feature = "window")]
+            Self::Viewer(lar_viewer::ViewerError::NoDisplay(_)) => 3,
+            _ => 2,
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! Outputs: each file or directory is written whole or not at all, and a place that cannot be written is refused
+//! before anything is computed.
+
+use crate::CommandError;
+use lar_core::atomic_write;
+use serde::Serialize;
+use std::fs::{self, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Where a report goes: a file, or the standard output for `-`.
+#[derive(Clone, Debug)]
+pub(crate) enum Sink {
+    Standard,
+    File(PathBuf),
+}
+
+impl From<&Path> for Sink {
+    fn from(path: &Path) -> Self {
+        if path == Path::new("-") { Self::Standard } else { Self::File(path.to_owned()) }
+    }
+}
+
+impl Sink {
+    /// Refuses a file that could not be written.
+    pub(crate) fn check(&self) -> Result<(), CommandError> {
+        match self {
+            Self::Standard => Ok(()),
+            Self::File(path) => check_file(path),
+        }
+    }
+
+    /// Writes the report as indented JSON.
+    pub(crate) fn write(&self, report: &impl Serialize, out: &mut dyn Write) -> Result<(), CommandError> {
+        let mut text = serde_json::to_string_pretty(report)?;
+        text.push('\n');
+        match self {
+            Self::Standard => out.write_all(text.as_bytes())?,
+            Self::File(path) => atomic_write(path, |file| file.write_all(text.as_bytes()))?,
+        }
+        Ok(())
+    }
+}
+
+/// Refuses outputs of one command that would overwrite each other.
+pub(crate) fn check_distinct<'a>(
+    outputs: impl IntoIterator<Item = Option<&'a Path>>,
+) -> Result<(), CommandError> {
+    let whole = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let mut paths: Vec<PathBuf> = outputs.into_iter().flatten().map(whole).collect();
+    paths.sort_unstable();
+    match paths.windows(2).find(|w| w[0] == w[1]) {
+        Some(w) => Err(CommandError::SameOutput { path: w[0].file_name().unwrap_or_default().into() }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses a path at which no file could be written, by writing an empty one beside it.
+pub(crate) fn check_file(path: &Path) -> Result<(), CommandError> {
+    let tried = match fs::metadata(path) {
+        Ok(data) if data.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+        Ok(data) if !data.is_file() => Ok(()),
+        _ => beside(path).and_then(|probe| {
+            OpenOptions::new().write(true).create_new(true).open(&probe).and_then(|_| fs::remove_file(&probe))
+        }),
+    };
+    tried.map_err(|source| CommandError::Write { path: path.to_owned(), source })
+}
+
+/// Refuses a path at which no new directory could be made; an empty directory may be there.
+pub(crate) fn check_directory(path: &Path) -> Result<(), CommandError> {
+    match fs::read_dir(path).map(Iterator::count) {
+        Ok(n) if 0 < n => Err(CommandError::NotEmpty { path: path.to_owned() }),
+        Ok(_) => Ok(()),
+        Err(missing) if missing.kind() == io::ErrorKind::NotFound => {
+            let probe =
+                beside(path).and_then(|probe| fs::create_dir(&probe).and_then(|()| fs::remove_dir(&probe)));
+            probe.map_err(|source| CommandError::Write { path: path.to_owned(), source })
+        }
+        Err(source) => Err(CommandError::Write { path: path.to_owned(), source }),
+    }
+}
+
+/// Fills a directory beside `path` and renames it onto `path`, which must not exist or be empty: the directory
+/// appears with all its files or not at all.
+pub(crate) fn write_directory(
+    path: &Path,
+    fill: impl FnOnce(&Path) -> Result<(), CommandError>,
+) -> Result<(), CommandError> {
+    check_directory(path)?;
+    let failed = |source| CommandError::Write { path: path.to_owned(), source };
+    let temporary = beside(path).map_err(failed)?;
+    fs::create_dir(&temporary).map_err(failed)?;
+    let done = fill(&temporary).and_then(|()| replace_empty(&temporary, path).map_err(failed));
+    if done.is_err() {
+        // The first error is the one to report; a directory that cannot be removed changes nothing about it.
+        let _ = fs::remove_dir_all(&temporary);
+    }
+    done
+}
+
+fn replace_empty(from: &Path, to: &Path) -> io::Result<()> {
+    match fs::remove_dir(to) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => fs::rename(from, to),
+    }
+}
+
+/// A hidden name beside `path` that only this process uses.
+fn beside(path: &Path) -> io::Result<PathBuf> {
+    let name = path.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "no file name"))?;
+    let mut hidden = std::ffi::OsString::from(".");
+    hidden.push(name);
+    hidden.push(format!(".{}.tmp", std::process::id()));
+    Ok(path.with_file_name(hidden))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(dir: &Path) -> Vec<String> {
+        let entries = fs::read_dir(dir).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap());
+        let mut names: Vec<String> = entries.collect();
+        names.sort();
+        names
+    }
+
+    fn fill(dir: &Path) -> Result<(), CommandError> {
+        Ok(atomic_write(dir.join("a"), |file| file.write_all(b"a"))?)
+    }
+
+    #[test]
+    fn directories_are_whole_or_absent() {
+        let dir = tempfile::tempdir().unwrap();
+        let cells = dir.path().join("cells");
+        let failed = write_directory(&cells, |temporary| {
+            fill(temporary)?;
+            Err(CommandError::Usage("stop".to_owned()))
+        });
+        assert_eq!(failed.unwrap_err().to_string(), "stop");
+        assert!(names(dir.path()).is_empty());
+        fs::create_dir(&cells).unwrap();
+        write_directory(&cells, fill).unwrap();
+        assert_eq!((names(dir.path()), names(&cells)), (vec!["cells".to_owned()], vec!["a".to_owned()]));
+        let refused = write_directory(&cells, fill).unwrap_err();
+        assert!(matches!(refused, CommandError::NotEmpty { .. }), "{refused}");
+    }
+
+    #[track_caller]
+    fn check_refused(tried: Result<(), CommandError>) {
+        let message = tried.unwrap_err().to_string();
+        assert!(message.starts_with("cannot write "), "{message}");
+    }
+
+    #[test]
+    fn places_that_cannot_be_written() {
+        let dir = tempfile::tempdir().unwrap();
+        let file = dir.path().join("file");
+        fs::write(&file, b"old").unwrap();
+        check_file(&file).unwrap();
+        check_file(&dir.path().join("new")).unwrap();
+        check_directory(&dir.path().join("new")).unwrap();
+        check_refused(check_file(dir.path()));
+        check_refused(check_file(&file.join("below")));
+        check_refused(check_file(&dir.path().join("no/such")));
+        check_refused(check_file(Path::new("")));
+        check_refused(check_directory(&file));
+        check_refused(check_directory(&dir.path().join("no/such")));
+        assert_eq!((names(dir.path()), fs::read(&file).unwrap()), (vec!["file".to_owned()], b"old".to_vec()));
+    }
+}

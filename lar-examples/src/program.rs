@@ -1,0 +1,86 @@
+//! What all programs share: parsing of arguments, one line for an error, exit codes.
+
+use crate::CommandError;
+use clap::{Parser, error::ErrorKind};
+use std::ffi::OsString;
+use std::io::{self, Write};
+
+/// Parses the arguments, the program's name first, and runs the program. Results go to `out`; an error is one line
+/// `name: …` on `err`. Returns the exit code.
+pub(crate) fn run<P: Parser>(
+    args: impl IntoIterator<Item = OsString>,
+    out: &mut dyn Write,
+    err: &mut dyn Write,
+    program: impl FnOnce(P, &mut dyn Write) -> Result<(), CommandError>,
+) -> u8 {
+    let name = P::command().get_name().to_owned();
+    let done = match P::try_parse_from(args) {
+        Ok(parsed) => program(parsed, out).and_then(|()| Ok(out.flush()?)),
+        Err(help) if matches!(help.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) => {
+            write!(out, "{help}").and_then(|()| out.flush()).map_err(CommandError::Print)
+        }
+        Err(usage) => Err(CommandError::Usage(first_paragraph(&usage.to_string()))),
+    };
+    match done {
+        Ok(()) => 0,
+        // Whoever reads the output has seen enough.
+        Err(CommandError::Print(error)) if error.kind() == io::ErrorKind::BrokenPipe => 0,
+        Err(error) => {
+            // When even the error stream is closed, the exit code still tells.
+            let _ = writeln!(err, "{name}: {}", one_line(&error.to_string()));
+            error.exit_code()
+        }
+    }
+}
+
+/// What clap says of a usage error, without usage and tips.
+fn first_paragraph(text: &str) -> String {
+    let paragraph = text.split("\n\n").next().unwrap_or(text);
+    let lines: Vec<&str> = paragraph.lines().map(str::trim).collect();
+    lines.join(" ").trim_start_matches("error: ").to_owned()
+}
+
+/// File names may hold line breaks; a message is one line all the same.
+fn one_line(message: &str) -> String {
+    message.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Parser)]
+    #[command(name = "test", version = "1.2")]
+    struct Arguments {
+        /// A number.
+        #[arg(long)]
+        n: u32,
+    }
+
+    #[track_caller]
+    fn check(args: &[&str], result: Result<(), CommandError>, expected: (u8, &str, &str)) {
+        let (mut out, mut err) = (Vec::new(), Vec::new());
+        let args = ["test"].iter().chain(args).map(OsString::from);
+        let code = run(args, &mut out, &mut err, |parsed: Arguments, out| {
+            writeln!(out, "n = {}", parsed.n)?;
+            result
+        });
+        let texts = [out, err].map(|bytes| String::from_utf8(bytes).unwrap());
+        assert_eq!((code, texts[0].as_str(), texts[1].as_str()), expected);
+    }
+
+    #[test]
+    fn codes_and_lines() {
+        let usage = |text: &str| Err(CommandError::Usage(text.to_owned()));
+        check(&["--n", "3"], Ok(()), (0, "n = 3\n", ""));
+        check(&["--version"], Ok(()), (0, "test 1.2\n", ""));
+        check(&["--n", "3"], usage("two\nlines"), (2, "n = 3\n", "test: two lines\n"));
+        let message = "test: the following required arguments were not provided: --n <N>\n";
+        check(&[], Ok(()), (2, "", message));
+        let closed = Err(CommandError::Print(io::ErrorKind::BrokenPipe.into()));
+        check(&["--n", "3"], closed, (0, "n = 3\n", ""));
+        let full = Err(CommandError::Print(io::Error::other("disk full")));
+        let message = "test: cannot write to the standard output: disk full\n";
+        check(&["--n", "3"], full, (2, "n = 3\n", message));
+    }
+}

@@ -1,0 +1,215 @@
+//! `lar` and `three_cubes` run as programs, on the three cubes and on pairs of spheres.
+
+mod support;
+
+use lar_core::{ChainComplex, ObjGrouping, TriangleMesh, read_obj};
+use lar_examples::scenes;
+use serde_json::Value;
+use support::{Place, Run};
+
+/// Runs `lar` and expects success without a word on the error stream.
+#[track_caller]
+fn done<S: AsRef<std::ffi::OsStr>>(place: &Place, args: &[S]) -> Run {
+    let run = place.lar(args);
+    assert_eq!((run.code, run.err.as_str()), (0, ""), "{run:?}");
+    run
+}
+
+fn words(line: &str) -> Vec<&str> {
+    line.split(' ').collect()
+}
+
+/// Numbers that differ from run to run or from machine to machine replaced by their kind.
+fn redacted(json: &str) -> String {
+    let mut value: Value = serde_json::from_str(json).expect("valid JSON");
+    value["threads"] = "[threads]".into();
+    redact(&mut value["seconds"]);
+    round(&mut value);
+    serde_json::to_string_pretty(&value).expect("a value")
+}
+
+fn redact(seconds: &mut Value) {
+    match seconds {
+        Value::Object(map) => map.values_mut().for_each(redact),
+        Value::Number(time) if time.as_f64().is_some_and(|t| 0.0 <= t) => *seconds = "[seconds]".into(),
+        other => panic!("{other} is no time"),
+    }
+}
+
+/// Floating-point numbers to nine digits: the last bits depend on the machine's sine and cosine.
+fn round(value: &mut Value) {
+    match value {
+        Value::Object(map) => map.values_mut().for_each(round),
+        Value::Array(list) => list.iter_mut().for_each(round),
+        Value::Number(n) if n.is_f64() => *value = format!("{:.8e}", n.as_f64().unwrap_or(f64::NAN)).into(),
+        _ => {}
+    }
+}
+
+#[test]
+fn arrangement_of_the_three_cubes() {
+    let place = Place::with_cubes();
+    let run = done(&place, &words("arrange a.obj b.obj c.obj --json -"));
+    insta::assert_snapshot!("arrange", redacted(&run.out));
+    let printed = done(&place, &words("arrange a.obj b.obj c.obj --json report.json")).out;
+    assert_eq!(redacted(&place.read("report.json")), redacted(&run.out));
+    let text: Vec<&str> = printed.lines().filter(|l| !l.contains(" s to read")).collect();
+    insta::assert_snapshot!("arrange_text", text.join("\n"));
+}
+
+#[test]
+fn threads_change_nothing() {
+    let place = Place::with_cubes();
+    let mut results = Vec::new();
+    for threads in ["1", "2", "7"] {
+        let line = "arrange a.obj b.obj c.obj --complex complex.json --json - --threads";
+        let run = done(&place, &[words(line), vec![threads]].concat());
+        let report: Value = serde_json::from_str(&run.out).unwrap();
+        assert_eq!(report["threads"].to_string(), threads);
+        results.push((place.read("complex.json"), redacted(&run.out)));
+    }
+    assert!(results.windows(2).all(|w| w[0] == w[1]), "the same bytes for 1, 2 and 7 threads");
+    let complex = ChainComplex::from_json(&results[0].0).unwrap();
+    assert_eq!(complex.f_vector(), [49, 88, 47, 8]);
+    assert_eq!(complex.validate_with_exterior(), []);
+}
+
+fn mesh(place: &Place, name: &str) -> TriangleMesh {
+    let surface = read_obj(place.path(name), ObjGrouping::Whole).unwrap().remove(0);
+    let triangle = |f| <[u32; 3]>::try_from(surface.face(f).next().unwrap()).expect("triangles");
+    let triangles = (0..surface.n_faces()).map(triangle).collect();
+    TriangleMesh { points: surface.points, triangles }
+}
+
+#[test]
+fn cells_as_files() {
+    let place = Place::with_cubes();
+    std::fs::create_dir(place.path("cells")).unwrap();
+    let run = done(&place, &words("arrange a.obj b.obj c.obj --json - --obj cells"));
+    let report: Value = serde_json::from_str(&run.out).unwrap();
+    let names: Vec<String> =
+        place.files().iter().map(|p| p.file_name().unwrap().to_string_lossy().into_owned()).collect();
+    let cells: Vec<String> = (1..8).map(|c| format!("cell_00{c}.obj")).collect();
+    assert_eq!(names, [&["a.obj", "b.obj", "c.obj", "cells"].map(String::from), &cells[..]].concat());
+    for (cell, name) in (1..).zip(&cells) {
+        let mesh = mesh(&place, &format!("cells/{name}"));
+        let volume = report["volumes"][cell].as_f64().unwrap();
+        assert!(mesh.is_closed() && (mesh.signed_volume() - volume).abs() < 1e-12, "{name}");
+    }
+    let again = place.lar(&words("arrange a.obj b.obj c.obj --obj cells"));
+    assert_eq!(
+        (again.code, again.err.as_str()),
+        (2, "lar: cannot write cells: the directory is not empty\n")
+    );
+}
+
+#[test]
+fn boolean_of_the_three_cubes() {
+    let place = Place::with_cubes();
+    let line = "boolean A-B|C a.obj b.obj c.obj -o out.obj --json -";
+    insta::assert_snapshot!("boolean", redacted(&done(&place, &words(line)).out));
+    let fragments = done(&place, &[words(line), vec!["--keep-fragments"]].concat()).out;
+    insta::assert_snapshot!("boolean_fragments", redacted(&fragments));
+    let printed = done(&place, &words("boolean A-B|C a.obj b.obj c.obj -o out.json --json report.json")).out;
+    let polygons = ChainComplex::read_json(place.path("out.json")).unwrap();
+    let report: Value = serde_json::from_str(&place.read("report.json")).unwrap();
+    assert_eq!(report["faces"], polygons.n_cells(2));
+    assert!(printed.starts_with("A-B|C: "), "{printed}");
+}
+
+/// Volume of an expression over the three cubes, as the command computes it.
+#[track_caller]
+fn check_volume(expression: &str, fill: &str, expected: Option<f64>) {
+    let place = Place::with_cubes();
+    let line = format!("boolean EXPR a.obj hole=b.obj c.obj -o out.obj --json - --fill {fill}");
+    let args: Vec<&str> = line.split(' ').map(|a| if a == "EXPR" { expression } else { a }).collect();
+    let report: Value = serde_json::from_str(&done(&place, &args).out).unwrap();
+    assert_eq!((&report["closed"], &report["bounded"]), (&true.into(), &expected.is_some().into()));
+    match expected {
+        None => assert!(report["volume"].is_null()),
+        Some(expected) => {
+            let volume = report["volume"].as_f64().unwrap();
+            assert!((volume - expected).abs() < 1e-6, "{expression}: {volume}, not {expected}");
+            match report["triangles"].as_u64() {
+                Some(0) => assert!(!place.read("out.obj").contains('f'), "{expression} is empty"),
+                _ => assert!((mesh(&place, "out.obj").signed_volume() - volume).abs() < 1e-9, "{expression}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn expressions_and_fill_rules() {
+    check_volume("A | hole | C", "nonzero", Some(2.484_154));
+    check_volume("A & hole & C", "even-odd", Some(0.059_034));
+    check_volume("A - hole - C", "positive", Some(0.597_214));
+    check_volume("A - (hole | C)", "nonzero", Some(0.597_214));
+    check_volume("A & !hole & !C", "nonzero", Some(0.597_214));
+    check_volume("A ^ hole ^ C", "nonzero", Some(0.597_214 + 0.590_061 + 0.840_067 + 0.059_034));
+    check_volume("A - A", "nonzero", Some(0.0));
+    check_volume("!A", "nonzero", None);
+}
+
+/// Two spheres of 20,480 triangles each, in general position.
+fn spheres() -> Place {
+    let place = Place::new();
+    let sphere = lar_core::icosphere(5);
+    sphere.write_obj(place.path("a.obj")).unwrap();
+    let surfaces = scenes::two_spheres(5, 0.7).unwrap();
+    TriangleMesh { points: surfaces[1].points.clone(), ..sphere }.write_obj(place.path("b.obj")).unwrap();
+    place
+}
+
+#[test]
+fn booleans_of_spheres() {
+    let place = spheres();
+    let names = ["A|B", "A&B", "A-B", "A^B"];
+    let [union, intersection, difference, symmetric] = names.map(|expression| {
+        let line = ["boolean", expression, "a.obj", "b.obj", "-o", "out.obj", "--json", "-"];
+        let report: Value = serde_json::from_str(&done(&place, &line).out).unwrap();
+        assert_eq!(report["closed"], true, "{expression}");
+        let volume = report["volume"].as_f64().unwrap();
+        let mesh = mesh(&place, "out.obj");
+        assert!(mesh.is_closed(), "{expression}");
+        assert_eq!(report["triangles"], mesh.triangles.len());
+        assert!((mesh.signed_volume() / volume - 1.0).abs() < 1e-9, "{expression}");
+        volume
+    });
+    let [a, b] = ["a.obj", "b.obj"].map(|name| mesh(&place, name).signed_volume());
+    let check = |left: f64, right: f64, law: &str| {
+        assert!((left - right).abs() < 1e-9 * (a + b), "{law}: {left} is not {right}");
+    };
+    check(union + intersection, a + b, "|A∪B| + |A∩B| = |A| + |B|");
+    check(difference + intersection, a, "|A−B| + |A∩B| = |A|");
+    check(symmetric + 2.0 * intersection, a + b, "|A△B| + 2|A∩B| = |A| + |B|");
+    assert!(0.1 * a < intersection && intersection < 0.9 * a, "the spheres cross");
+}
+
+#[test]
+fn facts() {
+    let place = Place::with_cubes();
+    let open = place.read("a.obj");
+    place.write("open.obj", &open[..open.trim_end().rfind('\n').unwrap()]);
+    done(&place, &words("arrange a.obj open.obj --complex complex.json"));
+    let said: Vec<String> =
+        ["a.obj", "open.obj", "complex.json"].iter().map(|f| done(&place, &["info", f]).out).collect();
+    insta::assert_snapshot!(said.join("\n"));
+}
+
+#[test]
+fn help_and_version() {
+    let place = Place::new();
+    assert_eq!(done(&place, &["--version"]).out, format!("lar {}\n", env!("CARGO_PKG_VERSION")));
+    let pages = ["", "arrange", "boolean", "render", "view", "info"].map(|command| {
+        let args: Vec<&str> = [command, "--help"].into_iter().filter(|a| !a.is_empty()).collect();
+        done(&place, &args).out
+    });
+    insta::assert_snapshot!(pages.join("\n----\n"));
+}
+
+#[test]
+fn three_cubes_prints_the_numbers() {
+    let run = Place::new().three_cubes(&[]);
+    assert_eq!((run.code, run.err.as_str()), (0, ""));
+    insta::assert_snapshot!(run.out);
+}

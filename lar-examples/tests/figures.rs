@@ -1,0 +1,146 @@
+//! The panels of Figure 6, compared with committed pictures, and the commands that draw.
+#![cfg(feature = "viewer")]
+#![expect(clippy::print_stderr, reason = "a test that cannot run for want of an adapter says so")]
+
+mod support;
+
+use lar_examples::{figures, scenes};
+use lar_viewer::{Image, OffscreenRenderer, ViewerError};
+use std::path::{Path, PathBuf};
+use support::Place;
+
+const SIZE: [u32; 2] = [320, 200];
+
+/// The renderer, or `None` with a message when this machine has no adapter. With `LAR_REQUIRE_GPU=1`, as in CI, a
+/// missing adapter fails the test.
+fn renderer() -> Option<OffscreenRenderer> {
+    match OffscreenRenderer::new() {
+        Ok(renderer) => Some(renderer),
+        Err(ViewerError::NoAdapter { found }) if std::env::var_os("LAR_REQUIRE_GPU").is_none() => {
+            eprintln!("NOT TESTED: no graphics adapter ({found}); LAR_REQUIRE_GPU=1 makes this an error");
+            None
+        }
+        Err(error) => panic!("{error}"),
+    }
+}
+
+fn committed(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/pictures/{name}.png"))
+}
+
+/// Compares with the committed picture: at most one pixel in a thousand may differ by more than 8 of 255, which is
+/// what other processors and drivers need. `LAR_UPDATE_PICTURES=1` writes the picture.
+#[track_caller]
+fn check_picture(name: &str, image: &Image) {
+    let path = committed(name);
+    if std::env::var_os("LAR_UPDATE_PICTURES").is_some() {
+        image.write_png(&path).unwrap();
+    }
+    let (size, expected) = read_png(&path);
+    assert_eq!(size, [image.width(), image.height()], "size of {name}");
+    let differing = differing(image.pixels(), &expected);
+    let allowed = expected.len() / 4 / 1000;
+    if allowed < differing {
+        let actual = std::env::temp_dir().join(format!("lar-examples-{name}-actual.png"));
+        image.write_png(&actual).unwrap();
+        panic!("{name}: {differing} pixels differ, {allowed} may; see {}", actual.display());
+    }
+}
+
+fn differing(a: &[u8], b: &[u8]) -> usize {
+    let pixels = a.chunks_exact(4).zip(b.chunks_exact(4));
+    pixels.filter(|(a, b)| a.iter().zip(*b).any(|(x, y)| 8 < x.abs_diff(*y))).count()
+}
+
+fn read_png(path: &Path) -> ([u32; 2], Vec<u8>) {
+    let file = std::fs::File::open(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut pixels).unwrap();
+    ([info.width, info.height], pixels)
+}
+
+#[test]
+fn panels_of_the_three_cubes() {
+    let Some(mut renderer) = renderer() else { return };
+    let surfaces = scenes::surfaces(&scenes::three_cubes()).unwrap();
+    let arrangement = lar_arrangement::arrange(&surfaces).unwrap();
+    for figure in figures::figures(&arrangement, &surfaces, SIZE).unwrap() {
+        let image = renderer.render(&figure.scene, &figure.view, SIZE[0], SIZE[1]).unwrap();
+        check_picture(&format!("figure6{}", figure.panel), &image);
+    }
+}
+
+#[test]
+fn three_cubes_writes_the_panels() {
+    if renderer().is_none() {
+        return;
+    }
+    let place = Place::new();
+    let run = place.three_cubes(&["--out", "new/pictures", "--size", "320x200"]);
+    assert_eq!(run.code, 0, "{run:?}");
+    for panel in ["a", "b", "c", "d"] {
+        let name = format!("figure6{panel}");
+        let (size, pixels) = read_png(&place.path(&format!("new/pictures/{name}.png")));
+        let (_, expected) = read_png(&committed(&name));
+        assert_eq!(size, SIZE);
+        assert!(differing(&pixels, &expected) <= expected.len() / 4 / 1000, "{name}");
+    }
+}
+
+/// Draws the three cubes by the command, and returns the picture's size and pixels.
+#[track_caller]
+fn rendered(options: &str) -> ([u32; 2], Vec<u8>) {
+    let place = Place::with_cubes();
+    let line = format!("render a.obj b.obj c.obj -o out.png {options}");
+    let run = place.lar(&line.split(' ').collect::<Vec<_>>());
+    assert_eq!(run.code, 0, "{run:?}");
+    read_png(&place.path("out.png"))
+}
+
+#[test]
+fn render_has_options_that_matter() {
+    if renderer().is_none() {
+        return;
+    }
+    let options = ["", " --explode 2", " --explode 2,1,1", " --alpha 0.2", " --explode 2 --cells all"];
+    let pictures = options.map(|o| rendered(&format!("--size 160x120{o}")));
+    for (i, (size, a)) in pictures.iter().enumerate() {
+        assert_eq!(*size, [160, 120]);
+        for (j, (_, b)) in pictures.iter().enumerate().skip(i + 1) {
+            let apart = differing(a, b);
+            assert!(500 < apart, "{:?} and {:?} differ in {apart} pixels", options[i], options[j]);
+        }
+    }
+    assert_eq!(rendered("--size 160x120"), pictures[0], "the same picture again");
+    assert_eq!(rendered("--size 160x120 --cells all"), pictures[0], "all cells of the three cubes are solid");
+}
+
+/// A Vulkan and OpenGL loader that find no driver.
+fn without_adapter(program: &str) -> std::process::Command {
+    let mut command = std::process::Command::new(program);
+    for (name, value) in [
+        ("WGPU_BACKEND", "vulkan"),
+        ("VK_ICD_FILENAMES", "/nonexistent"),
+        ("VK_DRIVER_FILES", "/nonexistent"),
+    ] {
+        command.env(name, value);
+    }
+    command
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn without_an_adapter_the_numbers_are_printed_all_the_same() {
+    let place = Place::with_cubes();
+    let run = place.run(without_adapter(env!("CARGO_BIN_EXE_three_cubes")).args(["--out", "pictures"]));
+    assert_eq!(run.code, 3, "{run:?}");
+    assert!(run.out.contains("49 vertices") && run.out.contains("2.484154"), "{}", run.out);
+    assert_eq!(run.err.lines().count(), 1, "{}", run.err);
+    assert!(run.err.contains("mesa-vulkan-drivers"), "{}", run.err);
+    let before = place.files();
+    let run =
+        place.run(without_adapter(env!("CARGO_BIN_EXE_lar")).args(["render", "a.obj", "-o", "out.png"]));
+    assert_eq!((run.code, run.out.as_str(), run.err.lines().count()), (3, "", 1), "{run:?}");
+    assert_eq!(place.files(), before);
+}
