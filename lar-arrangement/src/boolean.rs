@@ -47,9 +47,15 @@ pub enum BooleanError {
         /// Ends of one of them.
         edge: [[f64; 3]; 2],
     },
+    /// A region of a drawing whose outline is open.
+    #[error("{region}: the outline is open, it bounds no region")]
+    OpenOutline {
+        /// Name of the region.
+        region: String,
+    },
     /// An operand whose faces are not oriented consistently, with a fill rule that needs it.
     #[error(
-        "{solid}: the faces are not oriented consistently, only the even-odd fill rule can tell its inside"
+        "{solid}: the boundary is not oriented consistently, only the even-odd fill rule can tell its inside"
     )]
     Unoriented {
         /// Name of the operand.

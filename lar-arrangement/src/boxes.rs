@@ -77,6 +77,28 @@ impl BoxTree {
         self.leaves(target, 0, &mut |leaf| visit(self.items[leaf]));
     }
 
+    /// Calls `visit` with items whose boxes meet `target`, those that reach farther right roughly first. The call
+    /// is given the current bound and returns a new one: boxes that end left of it are left out.
+    pub(crate) fn query_leftwards(&self, target: &Aabb, mut visit: impl FnMut(u32, f64) -> f64) {
+        let mut bound = f64::NEG_INFINITY;
+        let top = self.levels.len() - 1;
+        let mut stack: Vec<(usize, usize)> = (0..self.levels[top].len()).map(|i| (top, i)).collect();
+        while let Some((level, i)) = stack.pop() {
+            let node = &self.levels[level][i];
+            if node.hi[0] < bound || !node.meets(target) {
+                continue;
+            }
+            if level == 0 {
+                bound = visit(self.items[i], bound);
+                continue;
+            }
+            let below = &self.levels[level - 1];
+            let first = stack.len();
+            stack.extend((i * WIDTH..((i + 1) * WIDTH).min(below.len())).map(|c| (level - 1, c)));
+            stack[first..].sort_by(|a, b| below[a.1].hi[0].total_cmp(&below[b.1].hi[0]));
+        }
+    }
+
     /// Calls `visit` with each leaf at or after `first` whose box meets `target`.
     fn leaves(&self, target: &Aabb, first: usize, visit: &mut impl FnMut(usize)) {
         let top = self.levels.len() - 1;
@@ -97,26 +119,38 @@ impl BoxTree {
         }
     }
 
+    /// Number of blocks of eight leaves.
+    pub(crate) fn n_blocks(&self) -> usize {
+        self.items.len().div_ceil(WIDTH)
+    }
+
+    /// The first item of a block.
+    pub(crate) fn first_of_block(&self, block: usize) -> u32 {
+        self.items[block * WIDTH]
+    }
+
+    /// Calls `visit` with each pair of items whose boxes meet, one in the block, the other after it in the tree's
+    /// order. Over all blocks every pair comes once.
+    pub(crate) fn pairs_of_block(&self, block: usize, mut visit: impl FnMut(u32, u32)) {
+        let leaves = &self.levels[0];
+        let (from, to) = (block * WIDTH, ((block + 1) * WIDTH).min(leaves.len()));
+        let hull = leaves[from..to].iter().fold(Aabb::EMPTY, |a, b| a.joined(b));
+        self.leaves(&hull, from, &mut |other| {
+            for this in from..to.min(other) {
+                if leaves[this].meets(&leaves[other]) {
+                    visit(self.items[this], self.items[other]);
+                }
+            }
+        });
+    }
+
     /// All pairs of items whose boxes meet, each once, the smaller first. O(n log n + pairs).
     pub(crate) fn pairs(&self) -> Vec<[u32; 2]> {
-        if self.items.is_empty() {
-            return Vec::new();
-        }
-        let leaves = &self.levels[0];
-        let (n_chunks, range) = parallel::chunks(leaves.len().div_ceil(WIDTH), 64);
+        let (n_chunks, range) = parallel::chunks(self.n_blocks(), 64);
         parallel::map(n_chunks, |chunk| {
             let mut found = Vec::new();
             for block in range(chunk) {
-                let (from, to) = (block * WIDTH, ((block + 1) * WIDTH).min(leaves.len()));
-                let hull = leaves[from..to].iter().fold(Aabb::EMPTY, |a, b| a.joined(b));
-                self.leaves(&hull, from, &mut |other| {
-                    for this in from..to.min(other) {
-                        if leaves[this].meets(&leaves[other]) {
-                            let (i, j) = (self.items[this], self.items[other]);
-                            found.push([i.min(j), i.max(j)]);
-                        }
-                    }
-                });
+                self.pairs_of_block(block, |i, j| found.push([i.min(j), i.max(j)]));
             }
             found
         })

@@ -36,6 +36,22 @@ pub enum ArrangementError {
         /// How many there are.
         n_vertices: usize,
     },
+    /// A drawing that does not live in the plane.
+    #[error("points of {dim} coordinates, a planar arrangement needs 2")]
+    PlanarDimension {
+        /// Its number of coordinates.
+        dim: usize,
+    },
+    /// A segment that names a point that does not exist.
+    #[error("segment {segment} names point {vertex}, but there are {n_vertices} points")]
+    NoSuchPoint {
+        /// The segment.
+        segment: usize,
+        /// The point that it names.
+        vertex: VertexId,
+        /// How many there are.
+        n_vertices: usize,
+    },
     /// The thread pool could not be started.
     #[error("{threads} threads cannot be started: {reason}")]
     Threads {

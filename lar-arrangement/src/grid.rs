@@ -68,9 +68,10 @@ impl Grid {
         (farthest * f64::EPSILON).max(1.0)
     }
 
-    /// A coordinate in steps from 0 as a length. Exact unless the result is subnormal.
+    /// A coordinate in steps from 0 as a length. Exact unless the result is subnormal, or was rounded up beyond the
+    /// largest number, which it then is.
     pub(crate) fn length(&self, steps: f64) -> f64 {
-        scaled(steps, self.exponent)
+        scaled(steps, self.exponent).clamp(f64::MIN, f64::MAX)
     }
 }
 

@@ -18,6 +18,7 @@ mod merge;
 mod nest;
 mod parallel;
 mod pipeline;
+pub mod planar;
 mod polygon;
 mod simplify;
 mod skeleton;

@@ -1,5 +1,28 @@
 //! Work in chunks: the same results in the same order for any number of threads.
 
+use crate::error::ArrangementError;
+use std::num::NonZeroUsize;
+
+/// Runs `f` with at most so many threads.
+#[cfg(feature = "rayon")]
+pub(crate) fn with_threads<R: Send>(
+    threads: Option<NonZeroUsize>,
+    f: impl FnOnce() -> R + Send,
+) -> Result<R, ArrangementError> {
+    let Some(threads) = threads else { return Ok(f()) };
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.get())
+        .build()
+        .map_err(|e| ArrangementError::Threads { threads: threads.get(), reason: e.to_string() })?;
+    Ok(pool.install(f))
+}
+
+/// Runs `f`; there is one thread.
+#[cfg(not(feature = "rayon"))]
+pub(crate) fn with_threads<R>(_: Option<NonZeroUsize>, f: impl FnOnce() -> R) -> Result<R, ArrangementError> {
+    Ok(f())
+}
+
 /// Applies `f` to 0..n and collects the results in order.
 #[cfg(feature = "rayon")]
 pub(crate) fn map<R: Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send) -> Vec<R> {

@@ -102,15 +102,7 @@ impl Arranger {
     /// Points that are not three-dimensional or not finite, faces that name vertices that do not exist; with
     /// checks, a post-condition that does not hold; when the threads cannot be started.
     pub fn arrange(&self, surfaces: &[Surface]) -> Result<Arrangement, ArrangementError> {
-        #[cfg(feature = "rayon")]
-        if let Some(threads) = self.threads {
-            let pool = rayon::ThreadPoolBuilder::new()
-                .num_threads(threads.get())
-                .build()
-                .map_err(|e| ArrangementError::Threads { threads: threads.get(), reason: e.to_string() })?;
-            return pool.install(|| self.run(surfaces));
-        }
-        self.run(surfaces)
+        parallel::with_threads(self.threads, || self.run(surfaces))?
     }
 
     fn run(&self, surfaces: &[Surface]) -> Result<Arrangement, ArrangementError> {

@@ -202,9 +202,16 @@ impl Polygon<'_> {
         self.is_bounded_by_loops(&triangles).then_some(triangles)
     }
 
-    /// Each loop as a fan about its first corner: always a chain with the right boundary.
+    /// Each loop as a fan about its corner of lowest number: always a chain with the right boundary, wherever the
+    /// loop starts and whichever way it turns.
     fn fans(&self) -> Vec<[u32; 3]> {
-        self.loops.iter().flat_map(|l| (1..l.len() - 1).map(move |i| [l[0], l[i], l[i + 1]])).collect()
+        let mut out = Vec::new();
+        for cycle in self.loops {
+            let apex = *cycle.iter().min().expect("loops have corners");
+            let edges = (0..cycle.len()).map(|i| [cycle[i], cycle[(i + 1) % cycle.len()]]);
+            out.extend(edges.filter(|e| !e.contains(&apex)).map(|[p, q]| [apex, p, q]));
+        }
+        out
     }
 
     fn is_bounded_by_loops(&self, triangles: &[[u32; 3]]) -> bool {

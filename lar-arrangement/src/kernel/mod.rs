@@ -28,7 +28,7 @@ mod predicates;
 mod tests;
 
 pub(crate) use int::Int;
-pub(crate) use point::Plane;
+pub(crate) use point::{Plane, rounded_quotient};
 pub(crate) use predicates::{Along, Direction, Geometry, Midpoint, Support, Vertex, VertexDef};
 
 /// The sign of an exact quantity.

@@ -149,7 +149,7 @@ impl HPoint {
 ///
 /// The double-double quotient is within 2^-97 of the true one; only when that leaves two candidates is the
 /// numerator compared with the midpoint between them.
-fn rounded_quotient<const N: usize>(numerator: &Int<N>, denominator: &Int<N>) -> f64 {
+pub(crate) fn rounded_quotient<const N: usize>(numerator: &Int<N>, denominator: &Int<N>) -> f64 {
     if numerator.sign() == Sign::Zero {
         return 0.0;
     }

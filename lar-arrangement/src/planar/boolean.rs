@@ -1,0 +1,186 @@
+//! Regions of a planar arrangement: winding numbers of all regions in all faces, and Boolean expressions whose
+//! results are polygons with holes.
+
+use crate::boolean::{BooleanError, FillRule};
+use crate::expression::Expression;
+use crate::merge::{self, Faces, Removal};
+use crate::planar::input::{Drawing, NO_REGION};
+use crate::planar::result::PlanarArrangement;
+use crate::union_find::UnionFind;
+use crate::winding::{Closure, Jump, Windings};
+use lar_core::{FaceId, Points};
+
+/// Polygons with holes in the plane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Polygons {
+    /// 2 × n, the vertices of the loops.
+    pub points: Points,
+    /// For each polygon its loops of points: the outer one, counter-clockwise, then its holes, clockwise.
+    pub polygons: Vec<Vec<Vec<u32>>>,
+}
+
+impl Polygons {
+    /// Sum of the areas.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        let at = |v: u32| self.points.point(v as usize);
+        let twice = |cycle: &Vec<u32>| {
+            let o = at(cycle[0]);
+            (0..cycle.len())
+                .map(|i| {
+                    let (p, q) = (at(cycle[i]), at(cycle[(i + 1) % cycle.len()]));
+                    (p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0])
+                })
+                .sum::<f64>()
+        };
+        self.polygons.iter().flatten().map(twice).sum::<f64>() / 2.0
+    }
+}
+
+impl PlanarArrangement {
+    /// Winding numbers of the drawing's regions, from the jumps at the edges.
+    pub(super) fn wind(&mut self, drawing: &Drawing) {
+        let n_regions = drawing.regions.len();
+        let jumps = if n_regions == 0 { Vec::new() } else { self.jumps(drawing) };
+        let faces = if n_regions == 0 { Vec::new() } else { self.faces_of_edges() };
+        self.windings = Windings::new(self.n_faces() + 1, n_regions, &faces, |edge| jumps[edge].clone());
+        self.regions.clone_from(&drawing.regions);
+    }
+
+    /// The faces on the right and on the left of each edge.
+    fn faces_of_edges(&self) -> Vec<[u32; 2]> {
+        let mut faces = vec![[0; 2]; self.n_edges()];
+        for face in 0..=self.n_faces() as u32 {
+            for h in self.half_edges(FaceId(face)) {
+                faces[(h / 2) as usize][usize::from(h.is_multiple_of(2))] = face;
+            }
+        }
+        faces
+    }
+
+    /// For each edge the regions that it bounds.
+    fn jumps(&self, drawing: &Drawing) -> Vec<Vec<Jump>> {
+        let mut jumps: Vec<Vec<Jump>> = vec![Vec::new(); self.n_edges()];
+        for segment in 0..drawing.segments.len() {
+            let region = drawing.region_of[segment];
+            if region == NO_REGION {
+                continue;
+            }
+            for (edge, sign) in self.edges_of(segment) {
+                let list = &mut jumps[edge.index()];
+                match list.binary_search_by_key(&region, |j| j.solid) {
+                    Ok(at) => {
+                        list[at].signed += i32::from(sign);
+                        list[at].odd ^= true;
+                    }
+                    Err(at) => list.insert(at, Jump { solid: region, signed: i32::from(sign), odd: true }),
+                }
+            }
+        }
+        jumps
+    }
+
+    /// The winding number of a region in a face (its parity where its outline is not oriented consistently).
+    #[must_use]
+    pub fn winding(&self, face: FaceId, region: usize) -> i32 {
+        let row = self.windings.of_cell(face.index());
+        row.binary_search_by_key(&(region as u32), |e| e.0).map_or(0, |i| row[i].1)
+    }
+
+    /// The faces where an expression over the regions holds. Face 0 is the exterior.
+    ///
+    /// # Errors
+    /// A region of the expression whose outline is open, or not oriented with a rule that needs it, or that does
+    /// not exist.
+    pub fn faces_where(&self, expression: &Expression, rule: FillRule) -> Result<Vec<FaceId>, BooleanError> {
+        for region in expression.operands() {
+            let Some(name) = self.regions.get(region) else {
+                return Err(BooleanError::NoSuchSolid { solid: region, n_solids: self.regions.len() });
+            };
+            match self.windings.closure[region] {
+                Closure::Closed => {}
+                Closure::Unoriented if rule == FillRule::EvenOdd => {}
+                Closure::Unoriented => return Err(BooleanError::Unoriented { solid: name.clone() }),
+                Closure::Open => return Err(BooleanError::OpenOutline { region: name.clone() }),
+            }
+        }
+        let holds = |face: &FaceId| expression.evaluate(|region| rule.is_inside(self.winding(*face, region)));
+        Ok((0..=self.n_faces() as u32).map(FaceId).filter(holds).collect())
+    }
+
+    /// The bounded faces where an expression over the regions holds, joined to polygons with holes: faces side by
+    /// side become one, straight edges are in one piece.
+    ///
+    /// ```
+    /// use lar_arrangement::planar::{Drawing, planar_arrangement};
+    /// use lar_arrangement::{Expression, FillRule};
+    /// use lar_core::Points;
+    /// let square = |x: f64, y: f64| vec![[x, y], [x + 2., y], [x + 2., y + 2.], [x, y + 2.]];
+    /// let mut drawing = Drawing::new(Points::new(2));
+    /// drawing.push_polygon("A", &[square(0., 0.)]);
+    /// drawing.push_polygon("B", &[square(1., 1.)]);
+    /// let a = planar_arrangement(&drawing)?;
+    /// let both = a.boolean(&Expression::parse("A | B", &["A", "B"])?, FillRule::NonZero)?;
+    /// assert_eq!((both.area(), both.polygons[0][0].len()), (7.0, 8));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`faces_where`](Self::faces_where).
+    #[doc(alias = "bool2d")]
+    pub fn boolean(&self, expression: &Expression, rule: FillRule) -> Result<Polygons, BooleanError> {
+        let faces: Vec<FaceId> =
+            self.faces_where(expression, rule)?.into_iter().filter(|face| face.0 != 0).collect();
+        Ok(self.joined(&faces))
+    }
+
+    fn joined(&self, faces: &[FaceId]) -> Polygons {
+        let mut number = vec![u32::MAX; self.n_faces() + 1];
+        faces.iter().zip(0..).for_each(|(face, i)| number[face.index()] = i);
+        let (mut loops, mut face_loops) = (lar_core::Cells::new(), vec![0]);
+        for &face in faces {
+            self.loops_of(face).for_each(|cycle| loops.push(cycle));
+            face_loops.push(loops.len() as u32);
+        }
+        let mut sets = UnionFind::new(faces.len());
+        let mut unused = vec![true; self.n_edges()];
+        loops.indices().iter().for_each(|h| unused[(h / 2) as usize] = false);
+        let removed: Vec<bool> = self
+            .faces_of_edges()
+            .iter()
+            .map(|sides| {
+                let [a, b] = sides.map(|face| number[face as usize]);
+                let between = a != u32::MAX && b != u32::MAX;
+                if between {
+                    sets.union(a, b);
+                }
+                between
+            })
+            .zip(&unused)
+            .map(|(between, unused)| between || *unused)
+            .collect();
+        let (new_face, n_new_faces) = sets.labels();
+        let edges: Vec<[u32; 2]> =
+            self.complex().boundary(1).indices().chunks_exact(2).map(|ends| [ends[0], ends[1]]).collect();
+        let mut straight = merge::with_two_edges(&edges, &removed, 0..self.n_vertices() as u32);
+        straight.retain(|_, [e, f]| self.carrier_of[*e as usize] == self.carrier_of[*f as usize]);
+        let view = Faces { edges: &edges, loops: &loops, face_loops: &face_loops };
+        let removal = Removal {
+            edges: &removed,
+            new_face: &new_face,
+            n_new_faces: n_new_faces as usize,
+            vertices: &straight,
+        };
+        let points = self.complex().points();
+        let at = |v: u32| [points.point(v as usize)[0], points.point(v as usize)[1], 0.0];
+        let merged = merge::merge(&view, &removal, at);
+        let mut out = Polygons { points: Points::new(2), polygons: Vec::new() };
+        merged.vertices.iter().for_each(|&v| out.points.push(points.point(v as usize)));
+        let tail = |&h: &u32| merged.edges[(h / 2) as usize][(h % 2) as usize];
+        for range in merged.face_loops.windows(2) {
+            let cycle = |l: u32| merged.loops[l as usize].iter().map(tail).collect();
+            out.polygons.push((range[0]..range[1]).map(cycle).collect());
+        }
+        out
+    }
+}

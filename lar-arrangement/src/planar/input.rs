@@ -1,0 +1,97 @@
+//! What a planar arrangement is made of: segments, with or without regions that they bound.
+
+use lar_core::{Cells, Model, Points};
+
+/// Segments in the plane, crossing at will. Those of a *region* bound it: its inside lies on their left, or is
+/// found by parity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawing {
+    pub(crate) points: Points,
+    pub(crate) segments: Vec<[u32; 2]>,
+    /// Names of the regions.
+    pub(crate) regions: Vec<String>,
+    /// Region of each segment, `NO_REGION` for loose ones.
+    pub(crate) region_of: Vec<u32>,
+}
+
+pub(crate) const NO_REGION: u32 = u32::MAX;
+
+impl Drawing {
+    /// No segments over some points (2 × n).
+    #[must_use]
+    pub fn new(points: Points) -> Self {
+        Self { points, segments: Vec::new(), regions: Vec::new(), region_of: Vec::new() }
+    }
+
+    /// Segments by their coordinates x1, y1, x2, y2.
+    ///
+    /// ```
+    /// let cross = lar_arrangement::planar::Drawing::from_segments(&[[0., 0., 2., 2.], [0., 2., 2., 0.]]);
+    /// assert_eq!(cross.n_segments(), 2);
+    /// ```
+    #[must_use]
+    pub fn from_segments(segments: &[[f64; 4]]) -> Self {
+        let mut out = Self::new(Points::from_columns(2, segments.as_flattened().to_vec()));
+        out.segments = (0..segments.len() as u32).map(|i| [2 * i, 2 * i + 1]).collect();
+        out.region_of = vec![NO_REGION; segments.len()];
+        out
+    }
+
+    /// The edges of a two-dimensional model.
+    #[must_use]
+    pub fn from_model(model: &Model) -> Self {
+        let mut out = Self::new(model.points().clone());
+        for edge in model.cells(1).iter() {
+            if let &[a, b] = edge {
+                out.push_segment([a, b]);
+            }
+        }
+        out
+    }
+
+    /// Adds a segment between two of the points.
+    pub fn push_segment(&mut self, ends: [u32; 2]) {
+        self.segments.push(ends);
+        self.region_of.push(NO_REGION);
+    }
+
+    /// Adds a region by its loops, each a cyclic list of points; returns its number.
+    pub fn push_region<'a>(
+        &mut self,
+        name: impl Into<String>,
+        loops: impl IntoIterator<Item = &'a [u32]>,
+    ) -> usize {
+        let region = self.regions.len() as u32;
+        self.regions.push(name.into());
+        for cycle in loops {
+            for (i, &p) in cycle.iter().enumerate() {
+                self.segments.push([p, cycle[(i + 1) % cycle.len()]]);
+                self.region_of.push(region);
+            }
+        }
+        region as usize
+    }
+
+    /// Adds a region whose loops are lists of coordinates.
+    pub fn push_polygon(&mut self, name: impl Into<String>, loops: &[Vec<[f64; 2]>]) -> usize {
+        let mut cells = Cells::new();
+        for cycle in loops {
+            let first = self.points.len() as u32;
+            cycle.iter().for_each(|p| self.points.push(p));
+            cells.push(&(first..self.points.len() as u32).collect::<Vec<_>>());
+        }
+        self.push_region(name, cells.iter())
+    }
+
+    /// Number of segments.
+    #[must_use]
+    pub fn n_segments(&self) -> usize {
+        self.segments.len()
+    }
+
+    /// Number of regions.
+    #[must_use]
+    pub fn n_regions(&self) -> usize {
+        self.regions.len()
+    }
+}

@@ -1,0 +1,17 @@
+//! Arrangements of segments in the plane as chain complexes: vertices, ∂1, ∂2 with the exterior face, faces with
+//! holes nested to any depth, provenance, regions and their Booleans (Paoluzzi 2019, §3.3 and §6.1).
+//!
+//! The stages: [`input`](Drawing) → carriers (segments that do not overlap) → crossings (events on carriers) →
+//! chains (events sorted and unified: vertices and edges) → faces.
+
+mod boolean;
+mod carriers;
+mod chains;
+mod crossings;
+mod faces;
+mod input;
+mod result;
+
+pub use boolean::Polygons;
+pub use input::Drawing;
+pub use result::{Dangling, PlanarArrangement, PlanarArranger, planar_arrangement};
