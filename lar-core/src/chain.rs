@@ -142,7 +142,7 @@ impl Chain {
         Self::collect(self.dim, self.n_cells, mine.chain(theirs).collect())
     }
 
-    fn check_fits(&self, expected_dim: usize, expected: usize) -> Result<(), ChainError> {
+    pub(crate) fn check_fits(&self, expected_dim: usize, expected: usize) -> Result<(), ChainError> {
         let (found_dim, found) = (self.dim, self.n_cells);
         if (found_dim, found) == (expected_dim, expected) {
             Ok(())

@@ -148,6 +148,25 @@ impl ChainComplex {
     }
 }
 
+impl ChainComplex {
+    /// The operators that do not fit each other or the points.
+    pub(crate) fn shape_violations(&self) -> Vec<Violation> {
+        let mut found = Vec::new();
+        shapes::check(self, &mut found);
+        found
+    }
+
+    /// What keeps the operators from being composed to zero: those that do not fit, or else the products
+    /// ∂p·∂p+1 that are not zero.
+    pub(crate) fn composition_violations(&self) -> Vec<Violation> {
+        let mut found = self.shape_violations();
+        if found.is_empty() {
+            squares::check(self, &mut found);
+        }
+        found
+    }
+}
+
 #[cfg(test)]
 pub(crate) mod fixtures {
     use super::Violation;
