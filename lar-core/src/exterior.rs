@@ -18,7 +18,7 @@ impl ChainComplex {
     /// use lar_core::{ChainComplex, cuboid_grid};
     /// let bar = ChainComplex::from_model(&cuboid_grid(&[2, 1, 1])).unwrap();
     /// let whole = bar.with_exterior().unwrap();
-    /// assert_eq!((whole.n_cells(3), whole.cell_volumes()), (3, vec![-2., 1., 1.]));
+    /// assert_eq!(whole.f_vector(), [12, 20, 11, 3]);
     /// assert!(whole.validate_with_exterior().is_empty());
     /// assert_eq!(whole.without_exterior(), bar);
     /// ```

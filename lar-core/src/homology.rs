@@ -156,7 +156,7 @@ impl Matrix {
     }
 
     /// The rows, each with the number of its entries, when none has more than two.
-    fn rows_of_two(&self) -> Option<Vec<(u8, [(u32, u32); 2])>> {
+    fn rows_of_two(&self) -> Option<Vec<ShortLine>> {
         let mut rows = vec![(0_u8, [(0, 0); 2]); self.n_rows];
         for (column, entries) in (0..).zip(&self.columns) {
             for &(row, x) in entries {
@@ -168,6 +168,9 @@ impl Matrix {
         Some(rows)
     }
 }
+
+/// The number of entries, and the entries as (index, value).
+type ShortLine = (u8, [(u32, u32); 2]);
 
 fn kept(n: usize, dropped: &[u32]) -> Vec<bool> {
     let mut keep = vec![true; n];

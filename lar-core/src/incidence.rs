@@ -7,7 +7,9 @@
 //!
 //! Source: DiCarlo, Paoluzzi, Shapiro, CAD 46 (2014), section 3.
 
+use crate::relations::lists;
 use crate::{Cells, ChainComplex, Model, ModelError, Operator};
+use sprs::CsMatI;
 
 /// The characteristic matrix of cells: rows cells, columns vertices, 1 where the cell has the vertex; stored by
 /// rows. A vertex repeated in a cell counts once.
@@ -20,7 +22,7 @@ use crate::{Cells, ChainComplex, Model, ModelError, Operator};
 /// let m = characteristic_matrix(&Cells::uniform(2, vec![0, 1, 1, 2]), 3);
 /// assert_eq!((m.rows(), m.cols(), m.nnz()), (2, 3, 4));
 /// ```
-#[doc(alias = "characteristicMatrix")]
+#[doc(alias("characteristicMatrix", "lar2cop"))]
 #[must_use]
 pub fn characteristic_matrix(cells: &Cells, n_vertices: usize) -> Operator {
     let sorted: Cells = cells
@@ -34,6 +36,38 @@ pub fn characteristic_matrix(cells: &Cells, n_vertices: usize) -> Operator {
         .collect();
     let ones = vec![1; sorted.indices().len()];
     ChainComplex::operator_from_columns(n_vertices, sorted, ones).transpose_into()
+}
+
+/// The number of vertices that two cells share, for all pairs that share any: the product M_a · M_bᵀ of the
+/// characteristic matrices, rows the cells of `a`, columns those of `b`. O(size of the product).
+///
+/// # Panics
+/// When a cell names a vertex not below `n_vertices`.
+///
+/// ```
+/// use lar_core::{cuboid_grid, shared_vertices};
+/// let cube = cuboid_grid(&[1, 1, 1]);
+/// let fe = shared_vertices(cube.cells(2), cube.cells(1), 8);
+/// assert_eq!((fe.get(0, 0), fe.get(0, 8), fe.get(0, 2)), (Some(&2), Some(&1), None));
+/// ```
+#[must_use]
+pub fn shared_vertices(a: &Cells, b: &Cells, n_vertices: usize) -> CsMatI<u32, u32> {
+    let counts = |cells| characteristic_matrix(cells, n_vertices).map(|&x| u32::from(x.unsigned_abs()));
+    &counts(a) * &counts(b).transpose_into().to_csr()
+}
+
+/// The cells whose characteristic matrix is given: for each row the columns with entries other than zero, in
+/// rising order. O(size).
+///
+/// ```
+/// use lar_core::{Cells, cells_of_matrix, characteristic_matrix};
+/// let edges = Cells::uniform(2, vec![0, 1, 1, 2]);
+/// assert_eq!(cells_of_matrix(&characteristic_matrix(&edges, 3)), edges);
+/// ```
+#[doc(alias = "cop2lar")]
+#[must_use]
+pub fn cells_of_matrix(matrix: &Operator) -> Cells {
+    lists(&matrix.transpose_view().to_csc())
 }
 
 /// For each cell of `large`, the cells of `small` all of whose vertices it has, in rising order.
@@ -90,35 +124,60 @@ fn file_cells(cells: &Cells, n_vertices: usize) -> Cells {
 }
 
 impl Model {
-    /// Unsigned ∂1: rows vertices, columns edges, 1 at both ends of each edge.
+    /// Unsigned ∂p of convex cells in any dimension: rows (p−1)-cells (vertices for p = 1), columns p-cells,
+    /// stored by columns, 1 where all vertices of the (p−1)-cell are vertices of the p-cell: where the product
+    /// M_p−1 · M_pᵀ counts as many as the (p−1)-cell has. For faces that are not convex see
+    /// [`coboundary_1`](Self::coboundary_1). Without rows for p = 0. O(size of the product).
     ///
     /// # Errors
     /// When the model is malformed.
-    #[doc(alias = "boundary_1")]
-    pub fn unsigned_boundary_1(&self) -> Result<Operator, ModelError> {
+    ///
+    /// ```
+    /// let cube = lar_core::cuboid_grid(&[1, 1, 1]);
+    /// let shapes = [1, 2, 3].map(|p| cube.unsigned_boundary(p).unwrap().shape());
+    /// assert_eq!(shapes, [(8, 12), (12, 6), (6, 1)]);
+    /// assert_eq!(lar_core::cuboid_grid(&[1, 1, 1, 1]).unsigned_boundary(4).unwrap().nnz(), 8);
+    /// ```
+    #[doc(alias("boundary_1", "u_boundary_2", "u_boundary_3"))]
+    pub fn unsigned_boundary(&self, p: usize) -> Result<Operator, ModelError> {
         self.check_well_formed()?;
-        Ok(characteristic_matrix(self.cells(1), self.points().len()).transpose_into())
+        let n_vertices = self.points().len();
+        let (rows, faces) = match p {
+            0 => (0, self.cells(0).iter().map(|_| [0_u32; 0]).collect()),
+            1 => return Ok(characteristic_matrix(self.cells(1), n_vertices).transpose_into()),
+            _ => (self.cells(p - 1).len(), contained_cells(self.cells(p - 1), self.cells(p), n_vertices)),
+        };
+        let ones = vec![1; faces.indices().len()];
+        Ok(ChainComplex::operator_from_columns(rows, faces, ones))
+    }
+
+    /// Unsigned δp = |∂p+1|ᵀ of convex cells: rows (p+1)-cells, columns p-cells, stored by rows; see
+    /// [`unsigned_boundary`](Self::unsigned_boundary).
+    ///
+    /// # Errors
+    /// When the model is malformed.
+    ///
+    /// ```
+    /// let delta = lar_core::cuboid_grid(&[1, 1, 1]).unsigned_coboundary(1).unwrap();
+    /// assert_eq!(delta.outer_view(0).unwrap().indices(), [0, 1, 4, 5]);
+    /// ```
+    #[doc(alias("u_coboundary_1", "u_coboundary_2"))]
+    pub fn unsigned_coboundary(&self, p: usize) -> Result<Operator, ModelError> {
+        Ok(self.unsigned_boundary(p + 1)?.transpose_into())
     }
 
     /// δ0 = ∂1ᵀ: rows edges, columns vertices, −1 at the smaller vertex of each edge and +1 at the larger.
     ///
     /// # Errors
     /// When the model is malformed.
+    ///
+    /// ```
+    /// let delta = lar_core::cuboid_grid(&[2]).coboundary_0().unwrap();
+    /// assert_eq!((delta.shape(), delta.get(1, 1), delta.get(1, 2)), ((2, 3), Some(&-1), Some(&1)));
+    /// ```
+    #[doc(alias = "build_copEV")]
     pub fn coboundary_0(&self) -> Result<Operator, ModelError> {
         Ok(self.signed_boundary_1()?.transpose_into())
-    }
-
-    /// Unsigned δ1: rows faces, columns edges, 1 where both ends of the edge are vertices of the face
-    /// (|FV · EVᵀ| = 2). That is the face's boundary when faces are convex and have no chords.
-    ///
-    /// # Errors
-    /// When the model is malformed.
-    #[doc(alias = "u_coboundary_1")]
-    pub fn unsigned_coboundary_1(&self) -> Result<Operator, ModelError> {
-        self.check_well_formed()?;
-        let edges = contained_cells(self.cells(1), self.cells(2), self.points().len());
-        let ones = vec![1; edges.indices().len()];
-        Ok(ChainComplex::operator_from_columns(self.cells(1).len(), edges, ones).transpose_into())
     }
 
     /// Signed δ1 = ∂2ᵀ for convex faces: rows faces, columns edges, +1 where the face's loop runs from the
@@ -139,7 +198,7 @@ mod tests {
 
     #[test]
     fn unsigned_coboundary_of_the_cube() {
-        let delta = cuboid_grid(&[1, 1, 1]).unsigned_coboundary_1().unwrap();
+        let delta = cuboid_grid(&[1, 1, 1]).unsigned_coboundary(1).unwrap();
         assert_eq!((delta.rows(), delta.cols(), delta.nnz()), (6, 12, 24));
         let rows: Vec<Vec<u32>> =
             delta.outer_iterator().map(|row| row.indices().iter().map(|e| e + 1).collect()).collect();
@@ -157,14 +216,42 @@ mod tests {
     #[test]
     fn operators_of_the_cube() {
         let cube = cuboid_grid(&[1, 1, 1]);
-        let unsigned = cube.unsigned_boundary_1().unwrap();
+        let unsigned = cube.unsigned_boundary(1).unwrap();
         assert_eq!((unsigned.rows(), unsigned.cols()), (8, 12));
         assert!(unsigned.is_csc() && unsigned.data().iter().all(|&x| x == 1));
         let d0 = cube.coboundary_0().unwrap();
         let d1 = cube.coboundary_1().unwrap();
         assert_eq!((d0.rows(), d0.cols(), d1.rows(), d1.cols()), (12, 8, 6, 12));
         assert!((&d1 * &d0).data().iter().all(|&x| x == 0));
-        assert_eq!(d1.map(|x| x.abs()), cube.unsigned_coboundary_1().unwrap());
+        assert_eq!(d1.map(|x| x.abs()), cube.unsigned_coboundary(1).unwrap());
+    }
+
+    #[test]
+    fn containment_is_a_count_of_shared_vertices() {
+        for shape in [&[3, 2][..], &[2, 2, 2], &[2, 1, 1, 2]] {
+            let grid = cuboid_grid(shape);
+            for p in 2..=shape.len() {
+                let shared = shared_vertices(grid.cells(p), grid.cells(p - 1), grid.points().len());
+                let full = |(&count, (row, column)): (&u32, (u32, u32))| {
+                    (count as usize == grid.cells(p - 1)[column as usize].len()).then_some((row, column))
+                };
+                let expected: Vec<(u32, u32)> = shared.iter().filter_map(full).collect();
+                let delta = grid.unsigned_coboundary(p - 1).unwrap();
+                assert_eq!(delta.iter().map(|e| e.1).collect::<Vec<_>>(), expected);
+            }
+            assert_eq!(
+                cells_of_matrix(&characteristic_matrix(grid.cells(2), grid.points().len())),
+                *grid.cells(2)
+            );
+        }
+    }
+
+    #[test]
+    fn operators_of_the_ends() {
+        let square = cuboid_grid(&[1, 1]);
+        assert_eq!(square.unsigned_boundary(0).unwrap().shape(), (0, 4));
+        assert_eq!(square.unsigned_boundary(3).unwrap().shape(), (1, 0));
+        assert_eq!(square.unsigned_coboundary(7).unwrap().shape(), (0, 0));
     }
 
     #[test]

@@ -91,6 +91,16 @@ pub enum ModelError {
         /// The ends.
         edge: [VertexId; 2],
     },
+    /// A face runs along one edge more than once in one direction.
+    #[error("2-cell {face} runs {times} times from vertex {} to vertex {}", .side[0], .side[1])]
+    RepeatedSide {
+        /// The 2-cell.
+        face: FaceId,
+        /// The edge in the direction of the surplus.
+        side: [VertexId; 2],
+        /// How many times more often in this direction than back.
+        times: u32,
+    },
 }
 
 fn reason(edges: usize) -> &'static str {

@@ -147,7 +147,7 @@ impl ChainComplex {
 }
 
 /// The rows with entries other than zero of each column.
-fn lists(operator: &Operator) -> Cells {
+pub(crate) fn lists(operator: &Operator) -> Cells {
     let by_columns;
     let operator = if operator.is_csc() {
         operator

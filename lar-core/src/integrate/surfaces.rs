@@ -12,7 +12,7 @@ impl TriangleMesh {
     /// triangle names a vertex that does not exist.
     ///
     /// ```
-    /// let ball = lar_core::icosphere(20);
+    /// let ball = lar_core::icosphere(4);
     /// assert!((ball.surface_integral([2, 0, 0]).unwrap() - ball.area() / 3.).abs() < 0.02);
     /// ```
     #[doc(alias("II", "surface"))]
@@ -28,7 +28,7 @@ impl TriangleMesh {
     /// As [`surface_integral`](Self::surface_integral).
     ///
     /// ```
-    /// let ball = lar_core::icosphere(8);
+    /// let ball = lar_core::icosphere(2);
     /// assert!((ball.volume_integral([0, 0, 0]).unwrap() - ball.signed_volume()).abs() < 1e-12);
     /// assert!(ball.volume_integral([1, 0, 2]).unwrap().abs() < 1e-12);
     /// ```
@@ -52,7 +52,7 @@ impl TriangleMesh {
     /// As [`shell_mass_properties`](Self::shell_mass_properties).
     ///
     /// ```
-    /// let body = lar_core::icosphere(30).solid_mass_properties().unwrap();
+    /// let body = lar_core::icosphere(4).solid_mass_properties().unwrap();
     /// let exact = 0.4 * body.mass(); // 2/5 m r² of a ball
     /// assert!((body.inertia_moments()[0] / exact - 1.).abs() < 0.01);
     /// ```
