@@ -50,6 +50,24 @@ fn event_loop() -> Result<EventLoop<()>, ViewerError> {
     }
     builder.build().map_err(|e| match e {
         winit::error::EventLoopError::RecreationAttempt => ViewerError::Window(e.to_string()),
-        _ => ViewerError::NoDisplay(e.to_string()),
+        _ => ViewerError::NoDisplay(reason(&e.to_string()).to_owned()),
     })
+}
+
+/// A message of the window library without the line of its own source that it begins with.
+fn reason(message: &str) -> &str {
+    let after_place = message.strip_prefix("os error at ").and_then(|m| m.split_once(": "));
+    after_place.map_or(message, |(_, reason)| reason).trim_end_matches('.')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::reason;
+
+    #[test]
+    fn messages_name_no_source_lines() {
+        let message = "os error at /src/winit/mod.rs:765: neither WAYLAND_DISPLAY nor DISPLAY is set.";
+        assert_eq!(reason(message), "neither WAYLAND_DISPLAY nor DISPLAY is set");
+        assert_eq!(reason("not supported: here"), "not supported: here");
+    }
 }
