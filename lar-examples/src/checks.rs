@@ -83,7 +83,7 @@ fn length(a: Vec3) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenes::{surfaces, three_cubes};
+    use crate::scenes::{random_cubes, surfaces, three_cubes, two_spheres};
     use lar_arrangement::arrange;
     use lar_core::{s, t};
 
@@ -99,5 +99,25 @@ mod tests {
         assert!(!parents_ok(&arrangement, &input[..2]));
         let moved: Vec<_> = input.iter().map(|s| s.transformed(&t(&[1.0, 2.0, 3.0])).unwrap()).collect();
         assert!(parents_ok(&arrangement, &moved), "areas do not depend on the place");
+    }
+    #[test]
+    fn pieces_add_up_in_larger_scenes() {
+        let random = (1..=8).map(|n| surfaces(&random_cubes(n + 2, n as u64)).unwrap());
+        let spheres = two_spheres(4, 0.7).unwrap().to_vec();
+        for (i, input) in random.chain([spheres]).enumerate() {
+            let arrangement = arrange(&input).unwrap();
+            assert!(parents_ok(&arrangement, &input), "scene {i}");
+            assert!(boundary_squared_zero(arrangement.complex()), "scene {i}");
+        }
+    }
+
+    #[test]
+    fn operators_that_do_not_fit_are_no_complex() {
+        let cube = arrange(&surfaces(&three_cubes()).unwrap()[..1]).unwrap();
+        let complex = cube.complex();
+        let mut boundaries: Vec<_> = (1..=3).map(|p| complex.boundary(p).clone()).collect();
+        boundaries[2].data_mut()[0] *= -1;
+        let broken = lar_core::ChainComplex::new(complex.points().clone(), boundaries);
+        assert!(!boundary_squared_zero(&broken));
     }
 }

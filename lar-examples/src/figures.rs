@@ -129,7 +129,7 @@ fn three_cells(arrangement: &Arrangement, shapes: &Shapes<'_>) -> Result<Scene, 
     push_cells(&mut scene, cells, &CellStyle { opacity: 0.5, ..CellStyle::default() })?;
     let shell = shapes.cell(CellId(0))?;
     let cell = shell.cell;
-    scene.push(Drawable::mesh("exterior", shell.mesh).color(WHITE).opacity(0.3).cell(cell))?;
+    scene.push(Drawable::mesh("exterior", shell.mesh).color(WHITE).opacity(0.4).cell(cell))?;
     scene.push(Drawable::edges("exterior", shell.edges).cell(cell))?;
     push_frame(&mut scene)?;
     Ok(scene)

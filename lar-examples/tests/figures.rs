@@ -144,3 +144,17 @@ fn without_an_adapter_the_numbers_are_printed_all_the_same() {
     assert_eq!((run.code, run.out.as_str(), run.err.lines().count()), (3, "", 1), "{run:?}");
     assert_eq!(place.files(), before);
 }
+
+#[test]
+#[cfg(all(target_os = "linux", feature = "window"))]
+fn without_a_display_no_window_opens() {
+    let place = Place::with_cubes();
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_lar"));
+    for name in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
+        command.env_remove(name);
+    }
+    let run = place.run(command.args(["view", "a.obj"]));
+    assert_eq!((run.code, run.out.as_str()), (3, ""), "{run:?}");
+    let message = "lar: no display to open a window on: neither ";
+    assert!(run.err.starts_with(message) && run.err.lines().count() == 1, "{}", run.err);
+}
