@@ -145,12 +145,14 @@ impl Polygon<'_> {
                     .any(|(&(p, q, r), s)| s == Sign::Zero && within(p, q, r)))
     }
 
-    /// Triangles whose signed boundaries add up to the loops.
+    /// Triangles whose signed boundaries add up to the loops, in an order that does not depend on where the loops
+    /// start and which way they turn.
     fn triangles(&self, axis: usize, positive: bool) -> Vec<[u32; 3]> {
-        if let [[a, b, c, d]] = self.loops {
-            return self.quadrilateral([*a, *b, *c, *d], axis);
-        }
-        self.delaunay(axis, positive).unwrap_or_else(|| self.fans())
+        let triangles = match self.loops {
+            [[a, b, c, d]] => self.quadrilateral([*a, *b, *c, *d], axis),
+            _ => self.delaunay(axis, positive).unwrap_or_else(|| self.fans()),
+        };
+        without_opposites(triangles)
     }
 
     /// The diagonal from the corner of lowest number, unless the triangles of the other one alone turn the same
@@ -223,6 +225,27 @@ impl Polygon<'_> {
         sides.sort_unstable();
         sides.chunk_by(|x, y| x.0 == y.0).all(|same| same.iter().map(|s| s.1).sum::<i32>() == 0)
     }
+}
+
+/// The triangles sorted by their corners; of those with the same corners only the surplus of one orientation.
+fn without_opposites(triangles: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
+    let mut signed: Vec<([u32; 3], i32)> = triangles.into_iter().map(ascending).collect();
+    signed.sort_unstable();
+    let mut out = Vec::with_capacity(signed.len());
+    for same in signed.chunk_by(|x, y| x.0 == y.0) {
+        let ([a, b, c], surplus) = (same[0].0, same.iter().map(|s| s.1).sum::<i32>());
+        let triangle = if surplus > 0 { [a, b, c] } else { [a, c, b] };
+        out.extend((0..surplus.unsigned_abs()).map(|_| triangle));
+    }
+    out
+}
+
+/// The corners in ascending order, and −1 when that turns the triangle round.
+fn ascending([a, b, c]: [u32; 3]) -> ([u32; 3], i32) {
+    let turned = [a > b, b > c, a > c].into_iter().filter(|&x| x).count() % 2 == 1;
+    let mut sorted = [a, b, c];
+    sorted.sort_unstable();
+    (sorted, if turned { -1 } else { 1 })
 }
 
 /// Marks the faces that an odd number of constraint edges separates from the outside.
