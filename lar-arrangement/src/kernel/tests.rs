@@ -279,7 +279,7 @@ fn on_scenes(n: u64, test: impl Fn(&Scene, u64) -> usize) -> usize {
 
 #[test]
 fn definitions_give_the_exact_points_and_round_correctly() {
-    let compared = on_scenes(100_000, |scene, seed| {
+    let compared = on_scenes(50_000, |scene, seed| {
         for (vertex, exact) in &scene.vertices {
             let found = scene.geometry.exact_point(&vertex.def);
             let (x, w) = (found.x.map(|x| to_big(&x)), to_big(&found.w));
@@ -291,12 +291,12 @@ fn definitions_give_the_exact_points_and_round_correctly() {
         }
         scene.vertices.len()
     });
-    assert!(compared > 1_000_000, "only {compared} vertices");
+    assert!(compared > 500_000, "only {compared} vertices");
 }
 
 #[test]
 fn sides_of_planes() {
-    let compared = on_scenes(30_000, |scene, seed| {
+    let compared = on_scenes(15_000, |scene, seed| {
         for (vertex, exact) in &scene.vertices {
             for &support in &scene.supports {
                 let found = scene.geometry.side(vertex, support);
@@ -312,12 +312,12 @@ fn sides_of_planes() {
         }
         scene.vertices.len() * scene.supports.len()
     });
-    assert!(compared > 2_000_000, "only {compared} comparisons");
+    assert!(compared > 1_000_000, "only {compared} comparisons");
 }
 
 #[test]
 fn order_and_equality_of_vertices() {
-    let compared = on_scenes(15_000, |scene, seed| {
+    let compared = on_scenes(8_000, |scene, seed| {
         for (a, exact_a) in &scene.vertices {
             for (b, exact_b) in &scene.vertices {
                 let orders = [0, 1, 2].map(|axis| exact_a.cmp(exact_b, axis));
@@ -331,12 +331,12 @@ fn order_and_equality_of_vertices() {
         }
         scene.vertices.len().pow(2)
     });
-    assert!(compared > 2_000_000, "only {compared} comparisons");
+    assert!(compared > 1_000_000, "only {compared} comparisons");
 }
 
 #[test]
 fn directions_turn_as_they_do_exactly() {
-    let compared = on_scenes(15_000, |scene, seed| {
+    let compared = on_scenes(8_000, |scene, seed| {
         let geometry = &scene.geometry;
         for (d, exact) in &scene.directions {
             let (axis, up) = geometry.axis_of(d);
@@ -355,12 +355,12 @@ fn directions_turn_as_they_do_exactly() {
         }
         scene.directions.len().pow(2) * 4
     });
-    assert!(compared > 2_000_000, "only {compared} comparisons");
+    assert!(compared > 1_000_000, "only {compared} comparisons");
 }
 
 #[test]
 fn normals_turn_about_directions() {
-    let compared = on_scenes(10_000, |scene, seed| {
+    let compared = on_scenes(5_000, |scene, seed| {
         let geometry = &scene.geometry;
         let normals: Vec<Big3> = (0..scene.n_facets).map(|f| scene.plane(Support::Facet(f)).0).collect();
         for (n, f) in normals.iter().zip(0..) {
@@ -383,12 +383,12 @@ fn normals_turn_about_directions() {
         }
         normals.len().pow(2) * scene.directions.len()
     });
-    assert!(compared > 2_000_000, "only {compared} comparisons");
+    assert!(compared > 1_000_000, "only {compared} comparisons");
 }
 
 #[test]
 fn midpoints_order_and_orient() {
-    let compared = on_scenes(8_000, |scene, seed| {
+    let compared = on_scenes(4_000, |scene, seed| {
         let random = &mut Random(!seed);
         let mut pick = || &scene.vertices[random.below(scene.vertices.len())];
         for round in 0..60 {
@@ -410,7 +410,7 @@ fn midpoints_order_and_orient() {
         }
         60 * 6
     });
-    assert!(compared > 2_000_000, "only {compared} comparisons");
+    assert!(compared > 1_000_000, "only {compared} comparisons");
 }
 
 fn to_big<const N: usize>(x: &Int<N>) -> IBig {
@@ -464,7 +464,7 @@ fn wide(random: &mut Random) -> Int<5> {
 
 #[test]
 fn quotients_round_to_nearest_even() {
-    for seed in 0..200_000 {
+    for seed in 0..100_000 {
         let random = &mut Random(seed);
         let w = match random.below(3) {
             0 => Int::from(1 + random.within(1 << 20).abs()),
