@@ -65,7 +65,7 @@ fn edge_columns(n_vertices: usize, edges: &Cells) -> Operator {
 }
 
 /// The distinct sides of the loops in first-seen order.
-fn sides(loops: &Cells) -> Cells {
+pub(crate) fn sides(loops: &Cells) -> Cells {
     let mut seen = FxHashMap::default();
     let mut edges = Cells::new();
     for cycle in loops.iter() {

@@ -1,9 +1,10 @@
 //! Cuboidal grids of any dimension with the cells of every dimension.
 //!
 //! The p-cells of a d-dimensional grid are products of d factors, p of them unit intervals and d − p of them
-//! grid points. Which factors are intervals is a bit mask (the first axis is the highest bit); p-cells come in
-//! rising order of masks and, inside a mask, in row-major order of their lowest corner.
+//! grid points. Which factors are intervals is a bit mask (the first axis is the highest bit); p-cells come
+//! in rising order of masks and, inside a mask, in row-major order of their lowest corner.
 
+use crate::multi_index::{for_each_row_major, masks_of_order};
 use crate::{Cells, Model, Points};
 
 /// The grid of `shape[0] × … × shape[d − 1]` unit cubes with its lowest corner at the origin, with all its
@@ -25,72 +26,101 @@ use crate::{Cells, Model, Points};
 ///
 /// Source: DiCarlo, Paoluzzi, Shapiro, CAD 46 (2014).
 #[doc(alias = "cuboidGrid")]
-#[doc(alias = "larGridSkeleton")]
+#[doc(alias = "larCuboids")]
 #[must_use]
 pub fn cuboid_grid(shape: &[usize]) -> Model {
-    let d = shape.len();
-    if d == 0 {
+    if shape.is_empty() {
         return Model::new(Points::new(0), vec![Cells::new()]);
     }
-    assert!(d < 32, "a grid of {d} dimensions has cells of 2^32 vertices or more");
-    let n_vertices =
-        shape.iter().try_fold(1_u32, |n, &k| n.checked_mul(u32::try_from(k).ok()?.checked_add(1)?));
-    assert!(n_vertices.is_some(), "a grid of shape {shape:?} has 2^32 vertices or more");
-    let mut cells = vec![Cells::new(); d + 1];
-    for mask in 0..1_u32 << d {
-        push_cells(shape, mask, &mut cells[mask.count_ones() as usize]);
-    }
+    let cells = (0..=shape.len()).map(|p| grid_skeleton(shape, p)).collect();
     Model::new(grid_points(shape), cells)
 }
 
-/// The vertices in row-major order.
-fn grid_points(shape: &[usize]) -> Points {
-    let mut points = Points::new(shape.len());
+/// The p-cells of the cuboidal grid of `shape`, as vertices of that grid: all cells that are intervals along
+/// p of the d axes and points along the others. None when p is above d, or when d is 0. O(cells · 2^p).
+///
+/// # Panics
+/// As [`cuboid_grid`].
+///
+/// ```
+/// let edges = lar_core::grid_skeleton(&[1, 2], 1);
+/// assert_eq!(edges.indices(), [0, 1, 1, 2, 3, 4, 4, 5, 0, 3, 1, 4, 2, 5]);
+/// ```
+#[doc(alias = "larGridSkeleton")]
+#[must_use]
+pub fn grid_skeleton(shape: &[usize], p: usize) -> Cells {
+    let d = shape.len();
+    if p > d || d == 0 {
+        return Cells::new();
+    }
+    assert!(d < 32, "a grid of {d} dimensions has cells of 2^32 vertices or more");
+    check_numbering(shape);
+    let masks: Vec<u64> = masks_of_order(d, p).collect();
+    let n_cells: usize = masks.iter().map(|&mask| cell_counts(shape, mask).iter().product::<usize>()).sum();
+    let mut cells = Cells::with_capacity(n_cells, n_cells << p);
+    for mask in masks {
+        push_cells(shape, mask, &mut cells);
+    }
+    cells
+}
+
+/// The vertices of the cuboidal grid of `shape`: all points with whole coordinates 0..=shape[k], in row-major
+/// order. O(vertices · d).
+///
+/// # Panics
+/// When there are 2^32 points or more.
+///
+/// ```
+/// let points = lar_core::grid_points(&[1, 2]);
+/// assert_eq!((points.len(), points.point(5)), (6, &[1., 2.][..]));
+/// ```
+#[doc(alias = "larImageVerts")]
+#[must_use]
+pub fn grid_points(shape: &[usize]) -> Points {
+    let n = check_numbering(shape);
     let counts: Vec<usize> = shape.iter().map(|&n| n + 1).collect();
+    let mut coords = Vec::with_capacity(if shape.is_empty() { 0 } else { n * shape.len() });
     for_each_row_major(&counts, |at| {
         #[expect(clippy::cast_precision_loss, reason = "grid coordinates stay below 2^32")]
-        let point: Vec<f64> = at.iter().map(|&x| x as f64).collect();
-        points.push(&point);
+        coords.extend(at.iter().map(|&x| x as f64));
     });
-    points
+    Points::from_columns(shape.len(), coords)
+}
+
+/// The number of vertices.
+fn check_numbering(shape: &[usize]) -> usize {
+    let n = shape.iter().try_fold(1_u32, |n, &k| n.checked_mul(u32::try_from(k).ok()?.checked_add(1)?));
+    n.unwrap_or_else(|| panic!("a grid of shape {shape:?} has 2^32 vertices or more")) as usize
+}
+
+/// How many cells with intervals along the axes of `mask` there are along each axis.
+fn cell_counts(shape: &[usize], mask: u64) -> Vec<usize> {
+    let last = shape.len() - 1;
+    (0..=last).map(|axis| shape[axis] + 1 - (mask >> (last - axis) & 1) as usize).collect()
 }
 
 /// The cells whose intervals lie along the axes of `mask`, row-major by their lowest corner.
-fn push_cells(shape: &[usize], mask: u32, cells: &mut Cells) {
-    let d = shape.len();
-    let along = |axis: usize| mask >> (d - 1 - axis) & 1 == 1;
-    let counts: Vec<usize> =
-        (0..d).map(|axis| if along(axis) { shape[axis] } else { shape[axis] + 1 }).collect();
-    let mut strides = vec![1_u32; d];
-    for axis in (1..d).rev() {
-        strides[axis - 1] = strides[axis] * index(shape[axis] + 1);
+fn push_cells(shape: &[usize], mask: u64, cells: &mut Cells) {
+    let last = shape.len() - 1;
+    let counts = cell_counts(shape, mask);
+    let mut strides = vec![1_u32; shape.len()];
+    for axis in (0..last).rev() {
+        strides[axis] = strides[axis + 1] * index(shape[axis + 1] + 1);
     }
     let mut corners = vec![0_u32];
-    for axis in (0..d).filter(|&axis| along(axis)) {
+    for axis in (0..=last).filter(|&axis| counts[axis] == shape[axis]) {
         corners = corners.iter().flat_map(|&c| [c, c + strides[axis]]).collect();
     }
     let mut cell = corners.clone();
-    for_each_row_major(&counts, |at| {
-        let lowest: u32 = at.iter().zip(&strides).map(|(&x, &stride)| index(x) * stride).sum();
-        for (vertex, corner) in cell.iter_mut().zip(&corners) {
-            *vertex = lowest + corner;
+    for_each_row_major(&counts[..last], |at| {
+        let row: u32 = at.iter().zip(&strides).map(|(&x, &stride)| index(x) * stride).sum();
+        for lowest in row..row + index(counts[last]) {
+            for (vertex, corner) in cell.iter_mut().zip(&corners) {
+                *vertex = lowest + corner;
+            }
+            cells.push(&cell);
         }
-        cells.push(&cell);
     });
-}
-
-/// Calls `visit` with each index of an array of shape `counts`, the last axis fastest.
-fn for_each_row_major(counts: &[usize], mut visit: impl FnMut(&[usize])) {
-    if counts.contains(&0) {
-        return;
-    }
-    let mut at = vec![0; counts.len()];
-    loop {
-        visit(&at);
-        let Some(axis) = (0..counts.len()).rev().find(|&k| at[k] + 1 < counts[k]) else { return };
-        at[axis] += 1;
-        at[axis + 1..].fill(0);
-    }
 }
 
 fn index(n: usize) -> u32 {

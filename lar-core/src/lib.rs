@@ -1,11 +1,11 @@
 //! Model types of the Linear Algebraic Representation (LAR).
 //!
 //! A *model* is a set of points plus cells of dimension 0..d; a *chain complex* is the list of its sparse
-//! boundary operators ∂p : Cp → Cp−1 with entries −1, 0, +1. Every other crate of the workspace meets in these
-//! types and in nothing else.
+//! boundary operators ∂p : Cp → Cp−1 with entries −1, 0, +1. Every other crate of the workspace meets in
+//! these types and in nothing else.
 //!
-//! * Build: [`cuboid_grid`], [`simplex`], [`triangular_prism`], [`icosphere`], or [`read_obj`]; place with
-//!   [`t`], [`s`], [`r`] inside a [`Struct`].
+//! * Build: [`cuboid_grid`], [`simplex_grid`], [`product`], [`simplex`], the shapes of [`mapper`], or
+//!   [`read_obj`]; place with [`t`], [`s`], [`r`] inside a [`Struct`].
 //! * Arrange: [`Model::to_surface`] turns a placed model into the [`Surface`] that an arrangement takes.
 //! * Ask: a [`ChainComplex`] holds the operators; [`Chain`]s are what they act on.
 //! * Keep: [`ChainComplex::to_json`], [`TriangleMesh::write_obj`], both through [`atomic_write()`].
@@ -26,35 +26,45 @@
 
 mod affine;
 mod atomic_write;
+mod boundary_cells;
 mod cells;
 mod chain;
 mod complex;
 mod conversions;
+mod embed;
 mod exterior;
 mod face_loops;
 mod from_model;
 mod generators;
 mod graph;
 mod grid;
+mod grid_1d;
 mod homology;
 mod ids;
 mod incidence;
 mod integrate;
 mod json;
 mod listing;
+pub mod mapper;
 mod measure;
+mod merge;
 mod mesh;
 mod model;
 mod model_faces;
+mod multi_index;
 mod obj;
 mod orbits;
 mod orient;
 mod points;
+mod product;
 mod relations;
+mod simplex_facets;
+mod simplicial;
 mod structure;
 mod surface;
 mod surface_check;
 mod topology;
+mod triangulated;
 mod validate;
 
 pub use affine::{Affine, AffineError, RotationVector, r, rotation, s, t};
@@ -64,7 +74,8 @@ pub use chain::{Chain, ChainError};
 pub use complex::{ChainComplex, Operator};
 pub use generators::{icosphere, simplex, triangular_prism};
 pub use graph::{Biconnected, DepthFirst, Graph, GraphError};
-pub use grid::cuboid_grid;
+pub use grid::{cuboid_grid, grid_points, grid_skeleton};
+pub use grid_1d::{GridError, grid_0, grid_1, grid_1d, grid_1d_repeated};
 pub use homology::HomologyError;
 pub use ids::{CellId, EdgeId, FaceId, VertexId};
 pub use incidence::{cells_of_matrix, characteristic_matrix, shared_vertices};
@@ -73,11 +84,17 @@ pub use json::JsonError;
 pub use mesh::TriangleMesh;
 pub use model::{Model, ModelViolation};
 pub use model_faces::ModelError;
+pub use multi_index::{masks_of_order, row_major_index};
 pub use obj::{ObjError, ObjGrouping, parse_obj, read_obj};
 pub use orbits::{PermutationError, permutation_orbits};
 pub use points::Points;
+pub use product::{ProductError, product, product_all, product_cells, product_points};
 pub use relations::Incidence;
-pub use structure::{Instance, Node, PlacedModel, Struct, StructError};
+pub use simplex_facets::{orient_simplices, simplex_boundary, simplex_facets, simplicial_boundary};
+pub use simplicial::{
+    SimplexError, extrude_simplicial, quads_to_triangles, simplex_grid, simplicial_complex,
+};
+pub use structure::{Corners, Instance, Node, PlacedModel, Struct, StructError, Visit};
 pub use surface::Surface;
 pub use surface_check::{BoundaryEdge, SurfaceViolation};
 pub use topology::{CellComponents, Components};

@@ -1,8 +1,16 @@
 //! Hierarchies: containers of models, transformations and other containers.
 //!
-//! A [`Struct`] is the scene description of PHIGS: inside one container, each matrix acts on everything to its
-//! right, and a nested container starts from the matrix current where it stands and leaves it unchanged. Models
-//! are held by `Arc`, so a thousand instances share one geometry until they are evaluated.
+//! A [`Struct`] is the scene description of PHIGS: inside one container, each matrix acts on everything to
+//! its right, and a nested container starts from the matrix current where it stands and leaves it unchanged.
+//! Models are held by `Arc`, so a thousand instances share one geometry until they are evaluated.
+//!
+//! Nothing here recurses: containers may be nested as deep as memory allows.
+
+mod embed;
+mod nested;
+mod walk;
+
+pub use walk::Visit;
 
 use crate::{Affine, AffineError, Cells, Model, ModelError, Points, Surface};
 use std::sync::Arc;
@@ -21,14 +29,15 @@ use std::sync::Arc;
 /// assert_eq!(placed[1].path, "scene/B");
 /// assert_eq!(placed[1].model.points().point(0), [0., 0., 0.5]);
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone)]
 pub struct Struct {
     name: String,
+    category: String,
     nodes: Vec<Node>,
 }
 
-/// One entry of a [`Struct`].
-#[derive(Clone, Debug, PartialEq)]
+/// One entry of a [`Struct`]. Two entries are equal when their contents are, shared or not.
+#[derive(Clone)]
 #[non_exhaustive]
 pub enum Node {
     /// Geometry; its name, or its position in the container, ends its path.
@@ -49,6 +58,9 @@ pub struct Instance {
     /// The product of the matrices met on the way: world from local.
     pub world_from_local: Affine,
 }
+
+/// Lower and upper corner of a box, d coordinates each.
+pub type Corners = (Vec<f64>, Vec<f64>);
 
 /// A model in the coordinates of the outermost container.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,8 +91,8 @@ impl PlacedModel {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StructError {
-    /// A transformation, or its product with those before it, is singular, or has entries that are infinite or
-    /// not numbers.
+    /// A transformation, or its product with those before it, is singular, or has entries that are infinite
+    /// or not numbers.
     #[error("{path}: {source}")]
     Transform {
         /// The node.
@@ -110,13 +122,13 @@ impl Struct {
     /// An empty container.
     #[must_use]
     pub fn new(name: impl Into<String>) -> Self {
-        Self { name: name.into(), nodes: Vec::new() }
+        Self { name: name.into(), category: String::new(), nodes: Vec::new() }
     }
 
     /// A container of the given entries.
     #[must_use]
     pub fn from_nodes(name: impl Into<String>, nodes: impl IntoIterator<Item = Node>) -> Self {
-        Self { name: name.into(), nodes: nodes.into_iter().collect() }
+        Self { name: name.into(), category: String::new(), nodes: nodes.into_iter().collect() }
     }
 
     /// The container with one more entry at its right end: a model (alone or with a name), an [`Affine`] or a
@@ -138,6 +150,25 @@ impl Struct {
         &self.name
     }
 
+    /// The container with a category: a word for what kind of part it is.
+    ///
+    /// ```
+    /// use lar_core::Struct;
+    /// assert_eq!(Struct::new("chair 1").with_category("chair").category(), "chair");
+    /// assert_eq!(Struct::new("scene").category(), "");
+    /// ```
+    #[must_use]
+    pub fn with_category(mut self, category: impl Into<String>) -> Self {
+        self.category = category.into();
+        self
+    }
+
+    /// The category of the container, empty when none was given.
+    #[must_use]
+    pub fn category(&self) -> &str {
+        &self.category
+    }
+
     /// The entries, left to right.
     #[must_use]
     pub fn nodes(&self) -> &[Node] {
@@ -150,9 +181,42 @@ impl Struct {
     /// # Errors
     /// When a matrix is singular or not finite, or nodes are of different spaces.
     pub fn traversal(&self) -> Result<Vec<Instance>, StructError> {
-        let mut walk = Walk { dim: None, found: Vec::new() };
-        walk.container(self, &self.name, None)?;
-        Ok(walk.found)
+        let mut found = Vec::new();
+        self.visit(|visit| {
+            if let (Node::Model(_, model), Some(map)) = (visit.node, visit.world_from_local) {
+                let (path, model) = (visit.path.to_owned(), Arc::clone(model));
+                found.push(Instance { path, model, world_from_local: map.clone() });
+            }
+        })?;
+        Ok(found)
+    }
+
+    /// Lower and upper corner of the box around all models in world coordinates, points of no cell included;
+    /// `None` when there are no points. O(points).
+    ///
+    /// # Errors
+    /// As [`traversal`](Self::traversal).
+    ///
+    /// ```
+    /// use lar_core::{Struct, cuboid_grid, t};
+    /// let scene = Struct::new("s").with(cuboid_grid(&[1, 1])).with(t(&[3., -2.])).with(cuboid_grid(&[1, 1]));
+    /// assert_eq!(scene.bounds()?, Some((vec![0., -2.], vec![4., 1.])));
+    /// # Ok::<(), lar_core::StructError>(())
+    /// ```
+    #[doc(alias = "box")]
+    pub fn bounds(&self) -> Result<Option<Corners>, StructError> {
+        let mut all: Option<Corners> = None;
+        for instance in self.traversal()? {
+            let moved = instance.world_from_local.apply(instance.model.points());
+            let moved = moved.map_err(|source| StructError::Transform { path: instance.path, source })?;
+            let Some((lo, hi)) = moved.bounds() else { continue };
+            let (all_lo, all_hi) = all.get_or_insert_with(|| (lo.clone(), hi.clone()));
+            for k in 0..lo.len() {
+                all_lo[k] = all_lo[k].min(lo[k]);
+                all_hi[k] = all_hi[k].max(hi[k]);
+            }
+        }
+        Ok(all)
     }
 
     /// Every model of the hierarchy in world coordinates, in the order of [`traversal`](Self::traversal).
@@ -169,7 +233,8 @@ impl Struct {
     }
 
     /// All models of the hierarchy as one: points and cells of each dimension one model after the other.
-    /// Points that coincide are kept apart; merging them is the work of an arrangement.
+    /// Points that coincide are kept apart; [`Model::welded`] merges those that are exactly equal, an
+    /// arrangement all that should be.
     ///
     /// # Errors
     /// As [`traversal`](Self::traversal), and when `u32` cannot number the result.
@@ -202,68 +267,6 @@ fn append(all: &mut Cells, more: &Cells, shift: u32) -> Option<()> {
         all.push(&shifted?);
     }
     Some(())
-}
-
-struct Walk {
-    dim: Option<usize>,
-    found: Vec<Instance>,
-}
-
-impl Walk {
-    fn container(&mut self, from: &Struct, path: &str, current: Option<&Affine>) -> Result<(), StructError> {
-        let mut current = current.cloned();
-        for (i, node) in from.nodes.iter().enumerate() {
-            match node {
-                Node::Struct(nested) => {
-                    self.container(nested, &join(path, Some(&nested.name), i), current.as_ref())?;
-                }
-                Node::Transform(map) => current = Some(self.advance(current, map, join(path, None, i))?),
-                Node::Model(name, model) => {
-                    let path = join(path, name.as_deref(), i);
-                    let d = self.same_space(&path, model.points().dim())?;
-                    let world_from_local = current.clone().unwrap_or_else(|| Affine::identity(d));
-                    self.found.push(Instance { path, model: Arc::clone(model), world_from_local });
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// The current matrix after `map`: `map` acts first on what follows, then the matrices left of it.
-    fn advance(
-        &mut self,
-        current: Option<Affine>,
-        map: &Affine,
-        path: String,
-    ) -> Result<Affine, StructError> {
-        self.same_space(&path, map.dim())?;
-        let product = || match current {
-            Some(current) => current.compose(map),
-            None => Ok(map.clone()),
-        };
-        let regular = |map: Affine| map.check_regular().map(|()| map);
-        map.check_regular()
-            .and_then(|()| product())
-            .and_then(regular)
-            .map_err(|source| StructError::Transform { path, source })
-    }
-
-    fn same_space(&mut self, path: &str, found: usize) -> Result<usize, StructError> {
-        let expected = *self.dim.get_or_insert(found);
-        if found == expected {
-            Ok(found)
-        } else {
-            Err(StructError::Dimension { path: path.to_owned(), expected, found })
-        }
-    }
-}
-
-/// `path/name`, or `path/i` for what has no name.
-fn join(path: &str, name: Option<&str>, i: usize) -> String {
-    match name {
-        Some(name) if !name.is_empty() => format!("{path}/{name}"),
-        _ => format!("{path}/{i}"),
-    }
 }
 
 impl From<Affine> for Node {
