@@ -64,8 +64,8 @@ pub fn grid_skeleton(shape: &[usize], p: usize) -> Cells {
     cells
 }
 
-/// The vertices of the cuboidal grid of `shape`: all points with whole coordinates 0..=shape[k], in row-major
-/// order. O(vertices · d).
+/// The vertices of the cuboidal grid of `shape`: all points with whole coordinates from 0 to those of `shape`, in
+/// row-major order. O(vertices · d).
 ///
 /// # Panics
 /// When there are 2^32 points or more.

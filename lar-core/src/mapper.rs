@@ -9,7 +9,7 @@
 //! Where a parametrisation meets itself (the seam of a full turn, the poles of a sphere, the axis of a ball),
 //! the vertices of the *grid* are identified before any coordinate is computed, so closed shapes are closed
 //! whatever the rounding, and no tolerance decides anything. A full turn is an angle of exactly
-//! [`TAU`](std::f64::consts::TAU).
+//! [`TAU`].
 //!
 //! For functions of one's own there are [`map`], which moves the vertices of a model and merges images that
 //! are exactly equal, and [`GluedGrid`], which declares seams and poles as the shapes do.
