@@ -34,6 +34,7 @@ mod conversions;
 mod embed;
 mod exterior;
 mod face_loops;
+mod files;
 mod from_model;
 mod generators;
 mod graph;
@@ -45,6 +46,7 @@ mod incidence;
 mod integrate;
 mod json;
 mod listing;
+mod locate;
 pub mod mapper;
 mod measure;
 mod merge;
@@ -63,6 +65,7 @@ mod simplicial;
 mod structure;
 mod surface;
 mod surface_check;
+mod svg;
 mod topology;
 mod triangulated;
 mod validate;
@@ -72,6 +75,10 @@ pub use atomic_write::{FileError, atomic_write};
 pub use cells::Cells;
 pub use chain::{Chain, ChainError};
 pub use complex::{ChainComplex, Operator};
+pub use files::{
+    GltfNode, MeshFileError, MeshFormat, Place, PolygonMesh, Precision, Problem, SurfaceFile, Weld,
+    parse_surface, read_surface, to_glb, to_gltf, write_gltf, write_mesh,
+};
 pub use generators::{icosphere, simplex, triangular_prism};
 pub use graph::{Biconnected, DepthFirst, Graph, GraphError};
 pub use grid::{cuboid_grid, grid_points, grid_skeleton};
@@ -81,6 +88,7 @@ pub use ids::{CellId, EdgeId, FaceId, VertexId};
 pub use incidence::{cells_of_matrix, characteristic_matrix, shared_vertices};
 pub use integrate::{IntegrationError, MAX_DEGREE, MassProperties, PrincipalAxes, triangle_moment};
 pub use json::JsonError;
+pub use locate::{LocateError, Location, SolidLocator, locate_in_polygon};
 pub use mesh::TriangleMesh;
 pub use model::{Model, ModelViolation};
 pub use model_faces::ModelError;
@@ -97,5 +105,8 @@ pub use simplicial::{
 pub use structure::{Corners, Instance, Node, PlacedModel, Struct, StructError, Visit};
 pub use surface::Surface;
 pub use surface_check::{BoundaryEdge, SurfaceViolation};
+pub use svg::{Drawing, Polyline, SvgError};
+#[cfg(feature = "svg")]
+pub use svg::{parse_svg, read_svg};
 pub use topology::{CellComponents, Components};
 pub use validate::Violation;

@@ -3,7 +3,9 @@
 mod read;
 mod write;
 
+pub(crate) use read::utf8;
 pub use read::{ObjGrouping, parse_obj, read_obj};
+pub(crate) use write::{write_face, write_number, write_vertices};
 
 use crate::{FaceId, FileError, VertexId};
 use std::path::PathBuf;

@@ -54,6 +54,21 @@ impl Surface {
         self.coefficients[f]
     }
 
+    /// Faces of one loop each, all of coefficient +1. O(n); the arrays are taken over as they are.
+    ///
+    /// ```
+    /// use lar_core::{Cells, Points, Surface};
+    /// let points = Points::from_xyz(&[[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]]);
+    /// let surface = Surface::from_polygons("square", points, Cells::uniform(4, vec![0, 1, 2, 3]));
+    /// assert_eq!((surface.n_faces(), surface.coefficient(0)), (1, 1));
+    /// ```
+    #[must_use]
+    pub fn from_polygons(name: impl Into<String>, points: Points, polygons: Cells) -> Self {
+        let n_faces = polygons.len();
+        let face_loops = (0..=u32::try_from(n_faces).expect("fewer than 2^32 loops")).collect();
+        Self { name: name.into(), points, loops: polygons, face_loops, coefficients: vec![1; n_faces] }
+    }
+
     /// The vertices of a triangle mesh and its triangles as faces of coefficient +1.
     #[must_use]
     pub fn from_triangles(name: impl Into<String>, mesh: &TriangleMesh) -> Self {

@@ -30,11 +30,15 @@ pub enum ObjGrouping {
 pub fn read_obj(path: impl AsRef<Path>, grouping: ObjGrouping) -> Result<Vec<Surface>, ObjError> {
     let path = path.as_ref();
     let bytes = read(path)?;
-    let text = str::from_utf8(&bytes).map_err(|e| {
+    parse_obj(utf8(&bytes, path)?, path, grouping)
+}
+
+/// The bytes as text, or the line at which they are none.
+pub(crate) fn utf8<'b>(bytes: &'b [u8], file: &Path) -> Result<&'b str, ObjError> {
+    str::from_utf8(bytes).map_err(|e| {
         let line = 1 + bytes[..e.valid_up_to()].iter().filter(|&&b| b == b'\n').count();
-        ObjError::NotUtf8 { file: path.to_owned(), line }
-    })?;
-    parse_obj(text, path, grouping)
+        ObjError::NotUtf8 { file: file.to_owned(), line }
+    })
 }
 
 /// Reads the text of an OBJ file; `file` is for names and messages.

@@ -121,24 +121,25 @@ fn write_polygons(out: &mut dyn Write, points: &Points, faces: &[Vec<u32>]) -> i
     faces.iter().try_for_each(|face| write_face(out, face))
 }
 
-/// `v x y z`; plane points have z = 0. Small and large numbers take the exponent form.
-fn write_vertices(out: &mut dyn Write, points: &Points) -> io::Result<()> {
+/// `v x y z`; plane points have z = 0.
+pub(crate) fn write_vertices(out: &mut dyn Write, points: &Points) -> io::Result<()> {
     for point in points.iter() {
         out.write_all(b"v")?;
         for k in 0..3 {
-            let x = point.get(k).copied().unwrap_or(0.);
-            if x == 0. || (1e-5..1e16).contains(&x.abs()) {
-                write!(out, " {x}")
-            } else {
-                write!(out, " {x:e}")
-            }?;
+            out.write_all(b" ")?;
+            write_number(out, point.get(k).copied().unwrap_or(0.))?;
         }
         out.write_all(b"\n")?;
     }
     Ok(())
 }
 
-fn write_face(out: &mut dyn Write, vertices: &[u32]) -> io::Result<()> {
+/// The shortest decimal that reads back as `x`; small and large numbers take the exponent form.
+pub(crate) fn write_number(out: &mut dyn Write, x: f64) -> io::Result<()> {
+    if x == 0. || (1e-5..1e16).contains(&x.abs()) { write!(out, "{x}") } else { write!(out, "{x:e}") }
+}
+
+pub(crate) fn write_face(out: &mut dyn Write, vertices: &[u32]) -> io::Result<()> {
     out.write_all(b"f")?;
     for &v in vertices {
         write!(out, " {}", u64::from(v) + 1)?;

@@ -1,0 +1,29 @@
+//! Surface files: STL, PLY, OFF and OBJ in and out, glTF out.
+//!
+//! One entry each way: [`read_surface`] tells the format by content and extension, [`write_mesh`] by extension.
+//! Readers run through the file once, in pieces; what they keep grows with what they have read, never with
+//! what a header announces, so that a file of ten lines cannot ask for the memory of four billion vertices.
+//! Every refusal names the file and the line or byte where it stands, and both values where two disagree.
+//! Beside the surface a reader says what the coordinates are worth ([`Precision`]) and what was welded
+//! ([`Weld`]).
+
+mod error;
+mod format;
+mod gltf;
+mod off;
+mod ply;
+mod polygons;
+mod precision;
+mod source;
+mod stl;
+mod weld;
+
+pub use error::{MeshFileError, Place, Problem};
+pub use format::{MeshFormat, SurfaceFile, parse_surface, read_surface, write_mesh};
+pub use gltf::{GltfNode, to_glb, to_gltf, write_gltf};
+pub use polygons::PolygonMesh;
+pub use precision::Precision;
+#[cfg(feature = "svg")]
+pub(crate) use source::clip;
+pub use weld::Weld;
+pub(crate) use weld::Welder;

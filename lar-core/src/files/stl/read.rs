@@ -1,0 +1,214 @@
+//! Reading STL.
+
+use super::{FACET, HEADER};
+use crate::files::error::{MeshFileError, Problem};
+use crate::files::format::{MeshFormat, SurfaceFile};
+use crate::files::precision::{Digits, Precision};
+use crate::files::source::{At, Source};
+use crate::files::weld::{Bits, Weld, Welder};
+use crate::{Cells, Surface};
+
+/// The number of facets that a binary header announces; `None` when the file is too short to have one.
+pub(crate) fn announced(head: &[u8]) -> Option<u64> {
+    let count = head.get(HEADER..HEADER + 4)?;
+    Some(u32::from_le_bytes([count[0], count[1], count[2], count[3]]).into())
+}
+
+/// Length in bytes of a binary file of `n` facets.
+pub(crate) fn binary_len(n: u64) -> u64 {
+    (HEADER + 4) as u64 + n * FACET as u64
+}
+
+/// Text or binary: binary when the length fits the number announced or the beginning is no text.
+pub(crate) fn form(head: &[u8], len: u64) -> MeshFormat {
+    let fits = announced(head).is_some_and(|n| binary_len(n) == len);
+    if !fits && head.trim_ascii_start().starts_with(b"solid") && !head.contains(&0) {
+        MeshFormat::StlText
+    } else {
+        MeshFormat::StlBinary
+    }
+}
+
+pub(crate) fn read_binary(source: &mut Source<'_>) -> Result<SurfaceFile, MeshFileError> {
+    source.bytes::<HEADER>("an STL header of 84 bytes")?;
+    let at = source.at_byte();
+    let announced = u32::from_le_bytes(source.bytes("an STL header of 84 bytes")?);
+    let (needed, found) = (binary_len(announced.into()), source.len());
+    if needed != found {
+        let announced = announced.into();
+        return Err(at.error(Problem::Length { what: "facets", announced, needed, found }));
+    }
+    let mut facets = Facets::<f32>::with_capacity(announced as usize);
+    for _ in 0..announced {
+        let at = source.at_byte();
+        let facet: [u8; FACET] = source.bytes("a facet of 50 bytes")?;
+        facets.push(at, [corner(at, &facet, 12)?, corner(at, &facet, 24)?, corner(at, &facet, 36)?])?;
+    }
+    facets.finish(source, MeshFormat::StlBinary, Precision::F32)
+}
+
+fn corner(at: At<'_>, facet: &[u8; FACET], start: usize) -> Result<[f32; 3], MeshFileError> {
+    let mut point = [0.; 3];
+    for (k, x) in point.iter_mut().enumerate() {
+        let i = start + 4 * k;
+        // Minus zero is where zero is.
+        *x = f32::from_le_bytes([facet[i], facet[i + 1], facet[i + 2], facet[i + 3]]) + 0.;
+        if !x.is_finite() {
+            return Err(at.error(Problem::NonFinite { value: x.to_string() }));
+        }
+    }
+    Ok(point)
+}
+
+/// Words in any arrangement on lines; keywords in either case; normals are read and forgotten. Several solids
+/// in one file make one surface.
+pub(crate) fn read_text(source: &mut Source<'_>) -> Result<SurfaceFile, MeshFileError> {
+    let mut text = TextReader { state: State::Outside, corners: Vec::new(), digits: Digits::default() };
+    let mut facets = Facets::<f64>::with_capacity(0);
+    while let Some((at, line)) = source.line()? {
+        text.line(at, line, &mut facets)?;
+    }
+    if text.state != State::Outside {
+        return Err(source.at_line().error(Problem::Ends { expected: text.state.expected() }));
+    }
+    let precision = text.digits.precision();
+    facets.finish(source, MeshFormat::StlText, precision)
+}
+
+/// What has been opened and not closed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    Outside,
+    Solid,
+    Facet,
+    Loop,
+    LoopDone,
+}
+
+impl State {
+    fn expected(self) -> &'static str {
+        match self {
+            Self::Outside => "solid",
+            Self::Solid => "facet or endsolid",
+            Self::Facet => "outer loop",
+            Self::Loop => "vertex or endloop",
+            Self::LoopDone => "endfacet",
+        }
+    }
+}
+
+struct TextReader {
+    state: State,
+    corners: Vec<[f64; 3]>,
+    digits: Digits,
+}
+
+impl TextReader {
+    fn line(&mut self, at: At<'_>, line: &str, facets: &mut Facets<f64>) -> Result<(), MeshFileError> {
+        let mut words = line.split_whitespace();
+        while let Some(word) = words.next() {
+            let keyword = word.to_ascii_lowercase();
+            match (self.state, keyword.as_str()) {
+                // The name, all that follows, is free.
+                (State::Outside, "solid") => return self.enter(State::Solid),
+                (State::Solid, "endsolid") => return self.enter(State::Outside),
+                (State::Solid, "facet") => {
+                    keep(at, words.next(), "normal")?;
+                    for _ in 0..3 {
+                        number(at, words.next())?;
+                    }
+                    self.state = State::Facet;
+                }
+                (State::Facet, "outer") => {
+                    keep(at, words.next(), "loop")?;
+                    self.state = State::Loop;
+                }
+                (State::Loop, "vertex") => self.vertex(at, &mut words)?,
+                (State::Loop, "endloop") => self.close(at, facets)?,
+                (State::LoopDone, "endfacet") => self.state = State::Solid,
+                _ => return Err(at.expected(self.state.expected(), word)),
+            }
+        }
+        Ok(())
+    }
+
+    fn enter(&mut self, state: State) -> Result<(), MeshFileError> {
+        self.state = state;
+        Ok(())
+    }
+
+    fn vertex<'w>(
+        &mut self,
+        at: At<'_>,
+        words: &mut impl Iterator<Item = &'w str>,
+    ) -> Result<(), MeshFileError> {
+        let mut corner = [0.; 3];
+        for x in &mut corner {
+            *x = at.coordinate(words.next(), &mut self.digits)?;
+        }
+        self.corners.push(corner);
+        Ok(())
+    }
+
+    fn close(&mut self, at: At<'_>, facets: &mut Facets<f64>) -> Result<(), MeshFileError> {
+        let found = i64::try_from(self.corners.len()).unwrap_or(i64::MAX);
+        let corners: [[f64; 3]; 3] =
+            self.corners[..].try_into().map_err(|_| at.error(Problem::FaceSize { found }))?;
+        self.corners.clear();
+        self.state = State::LoopDone;
+        facets.push(at, corners)
+    }
+}
+
+fn keep(at: At<'_>, word: Option<&str>, expected: &'static str) -> Result<(), MeshFileError> {
+    match word {
+        Some(word) if word.eq_ignore_ascii_case(expected) => Ok(()),
+        word => Err(at.expected(expected, word.unwrap_or(""))),
+    }
+}
+
+/// A part of a normal; NaN is what exporters write for facets without area.
+fn number(at: At<'_>, word: Option<&str>) -> Result<(), MeshFileError> {
+    let word = word.unwrap_or("");
+    word.parse::<f64>().map(|_| ()).map_err(|_| at.expected("a number", word))
+}
+
+struct Facets<T> {
+    welder: Welder<T, 3>,
+    indices: Vec<u32>,
+    corners: usize,
+}
+
+impl<T: Bits> Facets<T> {
+    /// Room for `n` facets, which the length of the file has vouched for.
+    fn with_capacity(n: usize) -> Self {
+        Self { welder: Welder::new(), indices: Vec::with_capacity(3 * n), corners: 0 }
+    }
+
+    fn push(&mut self, at: At<'_>, corners: [[T; 3]; 3]) -> Result<(), MeshFileError> {
+        at.check_size(self.indices.len() + 3)?;
+        self.corners += 3;
+        let [a, b, c] = corners.map(|corner| self.welder.vertex(corner));
+        if a != b && b != c && c != a {
+            self.indices.extend([a, b, c]);
+        }
+        Ok(())
+    }
+
+    fn finish(
+        self,
+        source: &Source<'_>,
+        format: MeshFormat,
+        precision: Precision,
+    ) -> Result<SurfaceFile, MeshFileError> {
+        if self.indices.is_empty() {
+            return Err(source.at_byte().error(Problem::NoFaces));
+        }
+        let vertices = self.welder.len();
+        let weld =
+            Weld { corners: self.corners, vertices, collapsed: (self.corners - self.indices.len()) / 3 };
+        let points = self.welder.into_points();
+        let surface = Surface::from_polygons(source.stem(), points, Cells::uniform(3, self.indices));
+        Ok(SurfaceFile { surface, format, precision, weld: Some(weld) })
+    }
+}

@@ -1,0 +1,157 @@
+//! Welding: equal points become one vertex.
+//!
+//! Points are equal when all their coordinates are, never when they are merely near. The table holds indices
+//! only and compares through them, and the points stand in blocks that are freed as they are converted, so
+//! that a soup of triangles passes in about twice the size of its file.
+
+use crate::Points;
+use rustc_hash::FxHasher;
+use std::hash::Hasher;
+
+/// What welding did to the corners of a file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Weld {
+    /// Corners read: three per facet.
+    pub corners: usize,
+    /// Vertices that they make.
+    pub vertices: usize,
+    /// Facets left out because two of their corners are one vertex. Leaving them out opens no surface: their
+    /// edges cancel each other.
+    pub collapsed: usize,
+}
+
+/// A number as its bits, for hashing and exact comparison.
+pub(crate) trait Bits: Copy {
+    fn bits(self) -> u64;
+    fn to_f64(self) -> f64;
+}
+
+impl Bits for f32 {
+    fn bits(self) -> u64 {
+        self.to_bits().into()
+    }
+    fn to_f64(self) -> f64 {
+        self.into()
+    }
+}
+
+impl Bits for f64 {
+    fn bits(self) -> u64 {
+        self.to_bits()
+    }
+    fn to_f64(self) -> f64 {
+        self
+    }
+}
+
+const EMPTY: u32 = u32::MAX;
+const BLOCK: usize = 1 << 16;
+
+/// Numbers points in the order in which they are first seen. −0 must have been made 0 before.
+pub(crate) struct Welder<T, const D: usize> {
+    blocks: Vec<Vec<[T; D]>>,
+    n: u32,
+    /// Open addressing with linear probing, a power of two, at most seven eighths full.
+    slots: Vec<u32>,
+}
+
+impl<T: Bits, const D: usize> Welder<T, D> {
+    pub(crate) fn new() -> Self {
+        Self { blocks: Vec::new(), n: 0, slots: vec![EMPTY; 64] }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.n as usize
+    }
+
+    /// The vertex at `point`; expected O(1). The caller keeps the number of vertices below 2^32 − 1.
+    pub(crate) fn vertex(&mut self, point: [T; D]) -> u32 {
+        if self.len() >= self.slots.len() / 8 * 7 {
+            self.grow();
+        }
+        let slot = self.slot(point);
+        if self.slots[slot] == EMPTY {
+            self.slots[slot] = self.n;
+            self.push(point);
+        }
+        self.slots[slot]
+    }
+
+    /// The points, vertex after vertex.
+    pub(crate) fn into_points(self) -> Points {
+        let Self { blocks, n, slots } = self;
+        drop(slots);
+        let mut coords = Vec::with_capacity(n as usize * D);
+        for block in blocks {
+            coords.extend(block.into_iter().flatten().map(T::to_f64));
+        }
+        Points::from_columns(D, coords)
+    }
+
+    fn push(&mut self, point: [T; D]) {
+        match self.blocks.last_mut() {
+            Some(block) if block.len() < BLOCK => block.push(point),
+            _ => {
+                let mut block = if self.blocks.is_empty() { Vec::new() } else { Vec::with_capacity(BLOCK) };
+                block.push(point);
+                self.blocks.push(block);
+            }
+        }
+        self.n += 1;
+    }
+
+    fn point(&self, vertex: u32) -> [T; D] {
+        let i = vertex as usize;
+        self.blocks[i / BLOCK][i % BLOCK]
+    }
+
+    /// The slot of an equal point, or the empty one where it belongs.
+    fn slot(&self, point: [T; D]) -> usize {
+        let mask = self.slots.len() - 1;
+        let key = point.map(T::bits);
+        let mut slot = hash(key) & mask;
+        while self.slots[slot] != EMPTY && self.point(self.slots[slot]).map(T::bits) != key {
+            slot = (slot + 1) & mask;
+        }
+        slot
+    }
+
+    fn grow(&mut self) {
+        let doubled = self.slots.len() * 2;
+        self.slots = Vec::new();
+        self.slots = vec![EMPTY; doubled];
+        let mask = doubled - 1;
+        for vertex in 0..self.n {
+            let mut slot = hash(self.point(vertex).map(T::bits)) & mask;
+            while self.slots[slot] != EMPTY {
+                slot = (slot + 1) & mask;
+            }
+            self.slots[slot] = vertex;
+        }
+    }
+}
+
+fn hash<const D: usize>(key: [u64; D]) -> usize {
+    let mut hasher = FxHasher::default();
+    key.into_iter().for_each(|bits| hasher.write_u64(bits));
+    hasher.finish() as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_points_are_one_vertex() {
+        let mut welder = Welder::new();
+        let point = |i: u32| [i as f32 * 0.1, (i % 7) as f32, -1.];
+        let n = 3 * u32::try_from(BLOCK).unwrap() / 2;
+        for i in (0..n).chain((0..n).rev()) {
+            assert_eq!(welder.vertex(point(i)), i);
+        }
+        assert_eq!(welder.vertex([0., 0., 1e-45]), n);
+        assert_eq!(welder.len(), n as usize + 1);
+        let points = welder.into_points();
+        assert_eq!(points.xyz(70_000), point(70_000).map(f64::from));
+    }
+}

@@ -1,0 +1,63 @@
+//! Drawings: polylines in the plane.
+
+use crate::files::Welder;
+use crate::{Cells, Model, Points};
+
+/// A run of straight pieces, from one subpath of a drawing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Polyline {
+    /// The `id` of its element, or of the nearest element around it that has one.
+    pub id: Option<String>,
+    /// Which shape of the drawing it belongs to, from 0 in document order: the subpaths of a shape share it.
+    pub shape: usize,
+    /// 2 × n; the first point is not repeated at the end of a closed one.
+    pub points: Points,
+    /// True when the last point is joined to the first: a polygon.
+    pub closed: bool,
+}
+
+/// The polylines of a drawing in document order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Drawing {
+    /// Open ones and closed ones.
+    pub polylines: Vec<Polyline>,
+}
+
+impl Drawing {
+    /// The segments as a model of 0- and 1-cells in the plane, input of a planar arrangement. Equal points are
+    /// one vertex; segments without length are left out. Expected O(n).
+    ///
+    /// # Panics
+    /// When a polyline has points of other than two coordinates.
+    ///
+    /// ```
+    /// use lar_core::{Drawing, Points, Polyline};
+    /// let points = Points::from_columns(2, vec![0., 0., 1., 0., 1., 1.]);
+    /// let triangle = Polyline { id: None, shape: 0, points, closed: true };
+    /// let model = Drawing { polylines: vec![triangle] }.to_model();
+    /// assert_eq!(model.f_vector(), [3, 3]);
+    /// ```
+    #[doc(alias = "svg2lar")]
+    #[must_use]
+    pub fn to_model(&self) -> Model {
+        let mut welder = Welder::<f64, 2>::new();
+        let mut edges = Vec::new();
+        for polyline in &self.polylines {
+            let vertex = |p: &[f64]| welder.vertex([p[0] + 0., p[1] + 0.]);
+            let vertices: Vec<u32> = polyline.points.iter().map(vertex).collect();
+            let closing = if polyline.closed { vertices.first() } else { None };
+            let ends = vertices.iter().skip(1).chain(closing);
+            edges.extend(vertices.iter().zip(ends).filter(|(a, b)| a != b).flat_map(|(&a, &b)| [a, b]));
+        }
+        let points = welder.into_points();
+        let cells = vec![Cells::singletons(points.len()), Cells::uniform(2, edges)];
+        Model::new(points, cells)
+    }
+
+    /// The loops of the closed polylines, as [`locate_in_polygon`](crate::locate_in_polygon) takes them.
+    #[must_use]
+    pub fn loops(&self) -> Vec<Vec<[f64; 2]>> {
+        let corners = |polyline: &Polyline| polyline.points.iter().map(|p| [p[0], p[1]]).collect();
+        self.polylines.iter().filter(|polyline| polyline.closed).map(corners).collect()
+    }
+}
