@@ -102,6 +102,9 @@ pub(crate) struct Scratch {
 
 /// Finds what facets f and g have in common.
 pub(crate) fn meet(soup: &Soup, f: u32, g: u32, scratch: &mut Scratch, out: &mut Contacts) {
+    if are_triangles_apart(soup, f, g) {
+        return;
+    }
     let [signs_f, signs_g] = &mut scratch.signs;
     match classify(soup, f, g, signs_f) {
         Position::Apart => return,
@@ -118,6 +121,30 @@ pub(crate) fn meet(soup: &Soup, f: u32, g: u32, scratch: &mut Scratch, out: &mut
         trace(soup, this, other, axis, &scratch.signs[i], &mut scratch.on_line, &mut scratch.traces[i]);
     }
     overlay(geometry, [f, g], axis, &scratch.traces, out);
+}
+
+/// For two triangles: whether one of them shows at once that they have nothing in common but shared corners and a
+/// shared edge. Most pairs end here.
+fn are_triangles_apart(soup: &Soup, f: u32, g: u32) -> bool {
+    if soup.facet_edges[f as usize].len() != 3 || soup.facet_edges[g as usize].len() != 3 {
+        return false;
+    }
+    let geometry = &soup.geometry;
+    let (a, b) = (geometry.base(f), geometry.base(g));
+    is_on_one_side(geometry, a, b, g) || is_on_one_side(geometry, b, a, f)
+}
+
+/// Whether the corners that are not shared lie strictly on one side of the other triangle's plane.
+fn is_on_one_side(geometry: &Geometry, corners: [u32; 3], others: [u32; 3], other: u32) -> bool {
+    let mut side = Sign::Zero;
+    for p in corners.into_iter().filter(|p| !others.contains(p)) {
+        let sign = geometry.side_of_point(p, other);
+        if sign == Sign::Zero || sign.times(side) == Sign::Negative {
+            return false;
+        }
+        side = sign;
+    }
+    side != Sign::Zero
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -22,6 +22,9 @@ pub(crate) struct Piece {
     pub soft: bool,
 }
 
+/// Marks half-edges that are whole edges of the input.
+pub(crate) const WHOLE: u32 = 1 << 31;
+
 /// A facet that a face is a piece of, and whether their normals point the same way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct FacetParent {
@@ -34,7 +37,8 @@ pub(crate) struct FacetParent {
 pub(crate) struct Fragments {
     pub vertices: Vec<Vertex>,
     pub pieces: Vec<Piece>,
-    /// Half-edges (2 · piece, + 1 against its direction) of all loops.
+    /// Half-edges of all loops: 2 · piece, + 1 against its direction; or, marked with `WHOLE`, directed edges of the
+    /// input that are not split.
     pub half_edges: Vec<u32>,
     /// End of each loop in `half_edges`.
     pub loop_ends: Vec<u32>,
@@ -80,10 +84,14 @@ impl Fragmenter<'_> {
         for &edge in &self.soup.facet_edges[facet as usize] {
             let [tail, head] = self.soup.directed(edge);
             first.get_or_insert(tail);
-            self.walk(edge, |piece| {
-                out.half_edges.push(2 * out.pieces.len() as u32);
-                out.pieces.push(piece);
-            });
+            if self.cuts.inner[(edge / 2) as usize].is_empty() {
+                out.half_edges.push(WHOLE | edge);
+            } else {
+                self.walk(edge, |piece| {
+                    out.half_edges.push(2 * out.pieces.len() as u32);
+                    out.pieces.push(piece);
+                });
+            }
             if first == Some(head) {
                 out.close_loop();
                 first = None;

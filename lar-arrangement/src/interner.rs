@@ -7,6 +7,8 @@ use rustc_hash::FxHashMap;
 #[derive(Debug, Default)]
 pub(crate) struct Interner {
     pub vertices: Vec<Vertex>,
+    /// Points of the input by their coordinates.
+    grid_points: FxHashMap<[i64; 3], u32>,
     /// First vertex with a position; the position is correctly rounded, so equal points have equal positions.
     first_at: FxHashMap<[u64; 3], u32>,
     /// Next vertex with the same position, or the vertex itself.
@@ -14,13 +16,16 @@ pub(crate) struct Interner {
 }
 
 impl Interner {
-    /// The points of the input, in their order.
-    pub(crate) fn new(geometry: &Geometry) -> Self {
-        let mut out = Self::default();
-        for p in 0..geometry.points.len() as u32 {
-            out.push(geometry.grid_vertex(p));
+    /// The points of the input, in their order. They are looked up by their integer coordinates and need no other
+    /// keys.
+    pub(crate) fn new(geometry: &Geometry, grid_points: FxHashMap<[i64; 3], u32>) -> Self {
+        let n = geometry.points.len() as u32;
+        Self {
+            vertices: (0..n).map(|p| geometry.grid_vertex(p)).collect(),
+            next_at: (0..n).collect(),
+            grid_points,
+            ..Self::default()
         }
-        out
     }
 
     /// Adds a vertex that is known to differ from all others.
@@ -41,6 +46,11 @@ impl Interner {
 
     /// The number of the vertex, known or new.
     pub(crate) fn intern(&mut self, vertex: Vertex, geometry: &Geometry) -> u32 {
+        if let Some(&p) = self.grid_points.get(&vertex.at.map(|x| x as i64))
+            && geometry.coincide(&self.vertices[p as usize], &vertex)
+        {
+            return p;
+        }
         if let Some(&first) = self.first_at.get(&key(&vertex)) {
             let mut at = first;
             loop {

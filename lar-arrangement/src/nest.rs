@@ -28,6 +28,9 @@ pub(crate) struct Nesting<'a> {
     pub n_components: u32,
 }
 
+/// Up to so many rays look at every face: that costs less than a tree.
+const FEW_RAYS: usize = 4;
+
 /// A face hit by a ray: the distance is side / normal, both exact.
 struct Hit {
     face: u32,
@@ -41,10 +44,11 @@ impl Nesting<'_> {
         let n = self.n_shells as usize;
         // Element n stands for the exterior.
         let mut sets = UnionFind::new(n + 1);
-        let tree = BoxTree::new(&self.boxes());
-        for edge in self.first_edges() {
+        let edges = self.first_edges();
+        let tree = (edges.len() > FEW_RAYS).then(|| BoxTree::new(&self.boxes()));
+        for edge in edges {
             let mut here = self.shell_of_side[self.sector(edge) as usize];
-            for hit in self.hits(edge, &tree) {
+            for hit in self.hits(edge, tree.as_ref()) {
                 sets.union(here, self.shell(&hit, false));
                 here = self.shell(&hit, true);
             }
@@ -61,12 +65,12 @@ impl Nesting<'_> {
     }
 
     fn boxes(&self) -> Vec<Aabb> {
-        (0..self.skeleton.n_faces() as u32)
-            .map(|f| {
-                let tails = self.skeleton.half_edges(f).map(|h| self.skeleton.ends(h)[0]);
-                Aabb::around(tails.map(|v| self.skeleton.vertices[v as usize].at))
-            })
-            .collect()
+        (0..self.skeleton.n_faces() as u32).map(|f| self.face_box(f)).collect()
+    }
+
+    fn face_box(&self, face: u32) -> Aabb {
+        let tails = self.skeleton.half_edges(face).map(|h| self.skeleton.ends(h)[0]);
+        Aabb::around(tails.map(|v| self.skeleton.vertices[v as usize].at))
     }
 
     /// One edge of each component.
@@ -83,7 +87,7 @@ impl Nesting<'_> {
     }
 
     /// The faces that the ray from the middle of an edge meets, in their order.
-    fn hits(&self, edge: u32, tree: &BoxTree) -> Vec<Hit> {
+    fn hits(&self, edge: u32, tree: Option<&BoxTree>) -> Vec<Hit> {
         let [a, b] = self.skeleton.edges[edge as usize].map(|v| &self.skeleton.vertices[v as usize]);
         let start = self.geometry.midpoint(a, b);
         let mut hits = Vec::new();
@@ -92,7 +96,14 @@ impl Nesting<'_> {
             lo: [f64::NEG_INFINITY, start.at[1] - 1.0, start.at[2] - 1.0],
             hi: start.at.map(|x| x + 1.0),
         };
-        tree.query(&beam, |face| hits.extend(self.hit(face, &start)));
+        let mut visit = |face| hits.extend(self.hit(face, &start));
+        match tree {
+            Some(tree) => tree.query(&beam, visit),
+            None => {
+                let faces = 0..self.skeleton.n_faces() as u32;
+                faces.filter(|&f| self.face_box(f).meets(&beam)).for_each(&mut visit);
+            }
+        }
         hits.sort_by(nearer);
         hits
     }

@@ -17,7 +17,7 @@ use crate::soup::{Parent, Soup};
 use crate::split::Cuts;
 use crate::stats::{Stats, Watch};
 use crate::union_find::UnionFind;
-use crate::winding::{Jump, Windings};
+use crate::winding::{Jumps, Windings};
 use crate::wrap;
 use lar_core::{Cells, ChainComplex, Points, Surface};
 use std::num::NonZeroUsize;
@@ -108,7 +108,7 @@ impl Arranger {
     fn run(&self, surfaces: &[Surface]) -> Result<Arrangement, ArrangementError> {
         let mut stats = Stats::default();
         let mut watch = Watch::start();
-        let soup = Soup::new(surfaces, FLATNESS)?;
+        let mut soup = Soup::new(surfaces, FLATNESS)?;
         watch.lap(&mut stats, "soup");
         let pairs = BoxTree::new(&facet_boxes(&soup)).pairs();
         watch.lap(&mut stats, "pairs");
@@ -116,14 +116,14 @@ impl Arranger {
         stats.pairs_tested = pairs.len() as u64;
         stats.pairs_crossing = contacts.crossing_pairs;
         let groups = groups(&soup, &mut contacts);
-        let mut interner = Interner::new(&soup.geometry);
+        let mut interner = Interner::new(&soup.geometry, std::mem::take(&mut soup.point_ids));
         let cuts = Cuts::new(&soup, contacts, &mut interner);
         watch.lap(&mut stats, "contacts");
         self.check(|| check::cuts(&soup, &cuts, &interner.vertices))?;
         stats.coplanar_groups = groups.iter().filter(|g| g.len() > 1).count() as u64;
         let fragments = fragments(&soup, &cuts, &interner, &groups);
         watch.lap(&mut stats, "fragmentation");
-        let skeleton = Skeleton::new(fragments, interner, &soup.geometry);
+        let skeleton = Skeleton::new(fragments, interner, &soup, &cuts);
         watch.lap(&mut stats, "congruence");
         self.check(|| check::skeleton(&skeleton, &soup.geometry))?;
         let rings = wrap::rings(&skeleton, &soup.geometry);
@@ -240,10 +240,13 @@ fn assemble(
         shells_of_face.iter().map(|s| s.map(|shell| shells.cell_of[shell as usize])).collect();
     let (parents, parent_offsets) = parents(&soup, skeleton, &dissolved);
     let coefficients = std::mem::take(&mut soup.coefficients);
-    let jumps = |face: usize| {
-        jumps(&parents[parent_offsets[face] as usize..parent_offsets[face + 1] as usize], &coefficients)
-    };
-    let windings = Windings::new(shells.n_cells as usize, surfaces.len(), &cells_of_face, jumps);
+    let mut jumps = Jumps::new();
+    for range in parent_offsets.windows(2) {
+        let coefficient = |p: &Parent| i32::from(coefficients[p.solid as usize][p.face as usize]);
+        let of_face = parents[range[0] as usize..range[1] as usize].iter();
+        jumps.push_face(of_face.map(|p| (p.solid, coefficient(p) * i32::from(p.sign))));
+    }
+    let windings = Windings::new(shells.n_cells as usize, surfaces.len(), &cells_of_face, &jumps);
     watch.lap(&mut stats, "membership");
     let plane_of_face = dissolved.old_face.iter().map(|&f| soup.plane_class(skeleton.facet(f))).collect();
     let facet_of_face = dissolved.old_face.iter().map(|&f| skeleton.facet(f)).collect();
@@ -298,22 +301,6 @@ fn parents(soup: &Soup, skeleton: &Skeleton, dissolved: &Dissolved) -> (Vec<Pare
         offsets.push(parents.len() as u32);
     }
     (parents, offsets)
-}
-
-fn jumps(parents: &[Parent], coefficients: &[Vec<i8>]) -> Vec<Jump> {
-    let mut out: Vec<Jump> = Vec::new();
-    for parent in parents {
-        let coefficient = i32::from(coefficients[parent.solid as usize][parent.face as usize]);
-        let (signed, odd) = (coefficient * i32::from(parent.sign), coefficient % 2 != 0);
-        match out.binary_search_by_key(&parent.solid, |j| j.solid) {
-            Ok(at) => {
-                out[at].signed += signed;
-                out[at].odd ^= odd;
-            }
-            Err(at) => out.insert(at, Jump { solid: parent.solid, signed, odd }),
-        }
-    }
-    out
 }
 
 fn positions(soup: &Soup, vertices: &[crate::kernel::Vertex]) -> Points {

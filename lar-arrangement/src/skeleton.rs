@@ -3,9 +3,11 @@
 //!
 //! Holds afterwards: vertices are pairwise distinct points, edges pairwise distinct, ∂1∂2 = 0.
 
-use crate::fragment::{FacetParent, Fragments};
+use crate::fragment::{FacetParent, Fragments, Piece, WHOLE};
 use crate::interner::Interner;
-use crate::kernel::{Direction, Geometry, Vertex};
+use crate::kernel::{Along, Direction, Vertex};
+use crate::soup::Soup;
+use crate::split::Cuts;
 use lar_core::Cells;
 use rustc_hash::FxHashMap;
 
@@ -30,57 +32,33 @@ pub(crate) struct Skeleton {
 
 impl Skeleton {
     /// Unifies what the facets found independently. O(n) expected.
-    pub(crate) fn new(mut fragments: Vec<Fragments>, mut interner: Interner, geometry: &Geometry) -> Self {
+    pub(crate) fn new(
+        mut fragments: Vec<Fragments>,
+        mut interner: Interner,
+        soup: &Soup,
+        cuts: &Cuts,
+    ) -> Self {
         let n_base = interner.vertices.len() as u32;
         for part in &mut fragments {
-            let ids: Vec<u32> = part.vertices.drain(..).map(|v| interner.intern(v, geometry)).collect();
+            let ids: Vec<u32> = part.vertices.drain(..).map(|v| interner.intern(v, &soup.geometry)).collect();
             for piece in &mut part.pieces {
                 piece.ends = piece.ends.map(|v| if v < n_base { v } else { ids[(v - n_base) as usize] });
             }
         }
-        let (vertices, compact) = used_vertices(&fragments, &interner);
-        let mut out = Self { vertices, face_loops: vec![0], parent_offsets: vec![0], ..Self::default() };
-        let mut edge_ids: FxHashMap<[u32; 2], u32> = FxHashMap::default();
-        let mut one_loop = Vec::new();
-        for part in &fragments {
-            let half_edges = out.push_edges(part, &compact, &mut edge_ids);
-            let (loop_base, parent_base) = (out.loops.len() as u32, out.parents.len() as u32);
-            let mut begin = 0;
-            for &end in &part.loop_ends {
-                one_loop.clear();
-                one_loop.extend(part.half_edges[begin..end as usize].iter().map(|&h| half_edges[h as usize]));
-                out.loops.push(&one_loop);
-                begin = end as usize;
-            }
-            out.face_loops.extend(part.face_ends.iter().map(|&end| loop_base + end));
-            out.parents.extend_from_slice(&part.parents);
-            out.parent_offsets.extend(part.parent_ends.iter().map(|&end| parent_base + end));
-        }
-        out
-    }
-
-    /// Adds the edges of a part; returns the half-edge that each of the part's half-edges becomes.
-    fn push_edges(
-        &mut self,
-        part: &Fragments,
-        compact: &[u32],
-        ids: &mut FxHashMap<[u32; 2], u32>,
-    ) -> Vec<u32> {
-        let mut half_edges = Vec::with_capacity(2 * part.pieces.len());
-        for piece in &part.pieces {
-            let [a, b] = piece.ends.map(|v| compact[v as usize]);
-            let ends = [a.min(b), a.max(b)];
-            let id = *ids.entry(ends).or_insert_with(|| {
-                self.edges.push(ends);
-                self.directions.push(if a < b { piece.direction } else { piece.direction.opposite() });
-                self.soft.push(true);
-                self.edges.len() as u32 - 1
-            });
-            self.soft[id as usize] &= piece.soft;
-            let h = 2 * id + u32::from(a > b);
-            half_edges.extend([h, h ^ 1]);
-        }
-        half_edges
+        let (vertices, compact) = used_vertices(&fragments, &interner, soup);
+        let n_half_edges = fragments.iter().map(|part| part.half_edges.len()).sum();
+        let n_loops = fragments.iter().map(|part| part.loop_ends.len()).sum();
+        let out = Self {
+            vertices,
+            loops: Cells::with_capacity(n_loops, n_half_edges),
+            face_loops: vec![0],
+            parent_offsets: vec![0],
+            ..Self::default()
+        };
+        let whole = vec![NOT_SEEN; soup.edges.len()];
+        let mut builder = Builder { out, soup, cuts, compact, whole, ids: FxHashMap::default() };
+        fragments.iter().for_each(|part| builder.push(part));
+        builder.out
     }
 
     pub(crate) fn n_faces(&self) -> usize {
@@ -110,11 +88,96 @@ impl Skeleton {
     }
 }
 
+const NOT_SEEN: u32 = u32::MAX;
+
+struct Builder<'a> {
+    out: Skeleton,
+    soup: &'a Soup,
+    cuts: &'a Cuts,
+    /// New number of each vertex.
+    compact: Vec<u32>,
+    /// Edge that each input edge without inner points became.
+    whole: Vec<u32>,
+    /// Edges that are pieces, by their ends.
+    ids: FxHashMap<[u32; 2], u32>,
+}
+
+impl Builder<'_> {
+    fn push(&mut self, part: &Fragments) {
+        let mut of_piece = vec![NOT_SEEN; part.pieces.len()];
+        let (loop_base, parent_base) = (self.out.loops.len() as u32, self.out.parents.len() as u32);
+        let mut one_loop = Vec::new();
+        let mut begin = 0;
+        for &end in &part.loop_ends {
+            one_loop.clear();
+            for &h in &part.half_edges[begin..end as usize] {
+                one_loop.push(if h & WHOLE != 0 {
+                    2 * self.whole_edge((h ^ WHOLE) / 2) + h % 2
+                } else {
+                    let at = (h / 2) as usize;
+                    if of_piece[at] == NOT_SEEN {
+                        of_piece[at] = self.half_edge(&part.pieces[at]);
+                    }
+                    of_piece[at] ^ (h % 2)
+                });
+            }
+            self.out.loops.push(&one_loop);
+            begin = end as usize;
+        }
+        self.out.face_loops.extend(part.face_ends.iter().map(|&end| loop_base + end));
+        self.out.parents.extend_from_slice(&part.parents);
+        self.out.parent_offsets.extend(part.parent_ends.iter().map(|&end| parent_base + end));
+    }
+
+    /// The edge that an input edge without inner points is. Its ends ascend, and so do their new numbers.
+    fn whole_edge(&mut self, edge: u32) -> u32 {
+        let known = self.whole[edge as usize];
+        if known != NOT_SEEN {
+            return known;
+        }
+        let ends = self.soup.edges[edge as usize];
+        let direction = self.soup.geometry.direction(Along::Edge(ends));
+        let id =
+            self.push_edge(ends.map(|v| self.compact[v as usize]), direction, self.soup.soft[edge as usize]);
+        self.whole[edge as usize] = id;
+        id
+    }
+
+    /// The half-edge of a piece in its direction. A piece with the ends of an unsplit input edge is that edge.
+    fn half_edge(&mut self, piece: &Piece) -> u32 {
+        let [a, b] = piece.ends;
+        let ends = [a.min(b), a.max(b)];
+        let input = self.soup.edge_between(ends).filter(|&e| self.cuts.inner[e as usize].is_empty());
+        let id = match (input, self.ids.get(&ends)) {
+            (Some(edge), _) => self.whole_edge(edge),
+            (None, Some(&id)) => id,
+            (None, None) => {
+                let direction = if a < b { piece.direction } else { piece.direction.opposite() };
+                let id = self.push_edge(ends.map(|v| self.compact[v as usize]), direction, true);
+                self.ids.insert(ends, id);
+                id
+            }
+        };
+        self.out.soft[id as usize] &= piece.soft;
+        2 * id + u32::from(a > b)
+    }
+
+    fn push_edge(&mut self, ends: [u32; 2], direction: Direction, soft: bool) -> u32 {
+        self.out.edges.push(ends);
+        self.out.directions.push(direction);
+        self.out.soft.push(soft);
+        self.out.edges.len() as u32 - 1
+    }
+}
+
 /// The vertices that edges end at, in their order, and the new number of each (only those of used ones count).
-fn used_vertices(fragments: &[Fragments], interner: &Interner) -> (Vec<Vertex>, Vec<u32>) {
+fn used_vertices(fragments: &[Fragments], interner: &Interner, soup: &Soup) -> (Vec<Vertex>, Vec<u32>) {
     let mut used = vec![false; interner.vertices.len()];
-    for piece in fragments.iter().flat_map(|part| &part.pieces) {
-        piece.ends.iter().for_each(|&v| used[v as usize] = true);
+    for part in fragments {
+        part.pieces.iter().for_each(|piece| piece.ends.iter().for_each(|&v| used[v as usize] = true));
+        for &h in part.half_edges.iter().filter(|h| *h & WHOLE != 0) {
+            used[soup.directed(h ^ WHOLE)[0] as usize] = true;
+        }
     }
     let mut vertices = Vec::new();
     let compact = used

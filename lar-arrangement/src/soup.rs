@@ -35,9 +35,15 @@ pub(crate) struct Soup {
     pub facet_edges: Cells,
     /// The polygon that each facet is (a piece of).
     pub facet_polygon: Vec<u32>,
-    pub polygon_parents: Vec<Vec<Parent>>,
+    parents: Vec<Parent>,
+    /// The parents of polygon p are `parent_offsets[p]..parent_offsets[p + 1]`.
+    parent_offsets: Vec<u32>,
     /// Whether a polygon is planar, exactly or within the tolerance.
     pub polygon_flat: Vec<bool>,
+    /// Edge by its ends.
+    edge_ids: FxHashMap<[u32; 2], u32>,
+    /// Grid point by its coordinates.
+    pub point_ids: FxHashMap<[i64; 3], u32>,
     /// Coefficient of each surface's faces in the boundary of its solid.
     pub coefficients: Vec<Vec<i8>>,
     /// Input faces without an inside (all corners on one line after snapping).
@@ -53,7 +59,7 @@ impl Soup {
     /// from 0) are not treated as planar: their diagonals become edges of the result.
     pub(crate) fn new(surfaces: &[Surface], flatness: f64) -> Result<Self, ArrangementError> {
         let grid = fitted_grid(surfaces)?;
-        let (points, point_of) = unified_points(surfaces, &grid);
+        let (points, point_ids, point_of) = unified_points(surfaces, &grid);
         let mut builder = Builder {
             soup: Self {
                 geometry: Geometry::new(points),
@@ -62,24 +68,32 @@ impl Soup {
                 soft: Vec::new(),
                 facet_edges: Cells::new(),
                 facet_polygon: Vec::new(),
-                polygon_parents: Vec::new(),
+                parents: Vec::new(),
+                parent_offsets: Vec::new(),
                 polygon_flat: Vec::new(),
+                edge_ids: FxHashMap::default(),
+                point_ids,
                 coefficients: Vec::new(),
                 degenerate: 0,
                 triangulated: 0,
             },
-            edge_ids: FxHashMap::default(),
             triangle_ids: FxHashMap::default(),
             polygon_ids: FxHashMap::default(),
+            parents: Vec::new(),
+            directed: Vec::new(),
             flatness: flatness * grid.coarseness(),
         };
+        let n_faces = surfaces.iter().map(Surface::n_faces).sum();
+        builder.parents.reserve(n_faces);
+        builder.triangle_ids.reserve(n_faces);
+        builder.soup.edge_ids.reserve(n_faces * 3 / 2);
         for (solid, (surface, point_of)) in surfaces.iter().zip(&point_of).enumerate() {
             for face in 0..surface.n_faces() {
                 builder.push_face(solid, surface, face, point_of);
             }
             builder.soup.coefficients.push((0..surface.n_faces()).map(|f| surface.coefficient(f)).collect());
         }
-        Ok(builder.soup)
+        Ok(builder.finished())
     }
 
     pub(crate) fn n_facets(&self) -> usize {
@@ -92,6 +106,11 @@ impl Soup {
         if edge.is_multiple_of(2) { [a, b] } else { [b, a] }
     }
 
+    /// The input edge with these ends, the smaller first.
+    pub(crate) fn edge_between(&self, ends: [u32; 2]) -> Option<u32> {
+        self.edge_ids.get(&ends).copied()
+    }
+
     /// A number that is equal for facets of one polygon that is meant to be planar.
     pub(crate) fn plane_class(&self, facet: u32) -> u32 {
         let polygon = self.facet_polygon[facet as usize];
@@ -100,7 +119,8 @@ impl Soup {
 
     /// Parents of a facet.
     pub(crate) fn parents(&self, facet: u32) -> &[Parent] {
-        &self.polygon_parents[self.facet_polygon[facet as usize] as usize]
+        let polygon = self.facet_polygon[facet as usize] as usize;
+        &self.parents[self.parent_offsets[polygon] as usize..self.parent_offsets[polygon + 1] as usize]
     }
 }
 
@@ -141,10 +161,14 @@ fn fitted_grid(surfaces: &[Surface]) -> Result<Grid, ArrangementError> {
     Ok(if lo[0] <= hi[0] { Grid::fitted(lo, hi) } else { Grid::fitted([0.0; 3], [0.0; 3]) })
 }
 
-/// Distinct grid points in first-seen order, and for each surface the grid point of each of its vertices.
-fn unified_points(surfaces: &[Surface], grid: &Grid) -> (Vec<[i64; 3]>, Vec<Vec<u32>>) {
+type PointIds = FxHashMap<[i64; 3], u32>;
+
+/// Distinct grid points in first-seen order, their numbers, and for each surface the grid point of each of its
+/// vertices.
+fn unified_points(surfaces: &[Surface], grid: &Grid) -> (Vec<[i64; 3]>, PointIds, Vec<Vec<u32>>) {
     let mut points = Vec::new();
-    let mut ids: FxHashMap<[i64; 3], u32> = FxHashMap::default();
+    let mut ids = PointIds::default();
+    ids.reserve(surfaces.iter().map(|s| s.points.len()).sum());
     let of = surfaces
         .iter()
         .map(|surface| {
@@ -161,55 +185,107 @@ fn unified_points(surfaces: &[Surface], grid: &Grid) -> (Vec<[i64; 3]>, Vec<Vec<
                 .collect()
         })
         .collect();
-    (points, of)
+    (points, ids, of)
 }
 
 struct Builder {
     soup: Soup,
-    edge_ids: FxHashMap<[u32; 2], u32>,
     triangle_ids: FxHashMap<[u32; 3], (u32, bool)>,
     polygon_ids: FxHashMap<Vec<u32>, (u32, bool)>,
+    /// Polygon and parent, in the order of the input.
+    parents: Vec<(u32, Parent)>,
+    /// Buffer for the edges of one facet.
+    directed: Vec<u32>,
     flatness: f64,
 }
 
 impl Builder {
     fn push_face(&mut self, solid: usize, surface: &Surface, face: usize, point_of: &[u32]) {
+        let mut loops = surface.face(face);
+        if let (1, Some(&[a, b, c])) = (loops.len(), loops.next()) {
+            self.push_triangle(solid, face, [a, b, c].map(|v| point_of[v as usize]));
+        } else {
+            self.push_general_face(solid, surface, face, point_of);
+        }
+    }
+
+    fn push_triangle(&mut self, solid: usize, face: usize, [a, b, c]: [u32; 3]) {
+        if a == b || b == c || c == a {
+            self.soup.degenerate += 1;
+            return;
+        }
+        let mut key = [a, b, c];
+        key.sort_unstable();
+        let reversed = is_reversed(&[a, b, c]);
+        if let Some(&(polygon, first_reversed)) = self.triangle_ids.get(&key) {
+            self.push_parent(polygon, solid, face, reversed == first_reversed);
+            return;
+        }
+        let corner = |p: u32| self.soup.geometry.points[p as usize];
+        if crate::kernel::Plane::through(corner(a), corner(b), corner(c)).n == [0; 3] {
+            self.soup.degenerate += 1;
+            return;
+        }
+        let polygon = self.soup.polygon_flat.len() as u32;
+        self.push_facet([a, b, c], [[a, b], [b, c], [c, a]].into_iter(), polygon, |_| false);
+        self.soup.polygon_flat.push(true);
+        self.push_parent(polygon, solid, face, true);
+        self.triangle_ids.insert(key, (polygon, reversed));
+    }
+
+    fn push_general_face(&mut self, solid: usize, surface: &Surface, face: usize, point_of: &[u32]) {
         let mut loops: Vec<Vec<u32>> =
             surface.face(face).map(|l| without_repetition(l.iter().map(|&v| point_of[v as usize]))).collect();
         loops.retain(|l| l.len() >= 3);
-        let Some(key) = canonical(&loops) else {
+        if loops.is_empty() {
             self.soup.degenerate += 1;
             return;
-        };
-        let known = match key.as_slice() {
-            &[a, b, c] => self.triangle_ids.get(&[a, b, c]).copied(),
-            _ => self.polygon_ids.get(&key).copied(),
-        };
-        let reversed = is_reversed(&loops[0]);
-        if let Some((polygon, first_reversed)) = known {
-            self.push_parent(polygon, solid, face, if reversed == first_reversed { 1 } else { -1 });
+        }
+        if let [cycle] = loops.as_slice()
+            && let &[a, b, c] = cycle.as_slice()
+        {
+            self.push_triangle(solid, face, [a, b, c]);
             return;
         }
-        let polygon = self.soup.polygon_parents.len() as u32;
+        let (key, reversed) = (canonical(&loops), is_reversed(&loops[0]));
+        if let Some(&(polygon, first_reversed)) = self.polygon_ids.get(&key) {
+            self.push_parent(polygon, solid, face, reversed == first_reversed);
+            return;
+        }
+        let polygon = self.soup.polygon_flat.len() as u32;
         let Some(flat) = self.push_polygon(&loops, polygon) else {
             self.soup.degenerate += 1;
             return;
         };
         self.soup.polygon_flat.push(flat);
-        self.soup.polygon_parents.push(Vec::with_capacity(1));
-        self.push_parent(polygon, solid, face, 1);
-        match key.as_slice() {
-            &[a, b, c] => self.triangle_ids.insert([a, b, c], (polygon, reversed)),
-            _ => self.polygon_ids.insert(key, (polygon, reversed)),
-        };
+        self.push_parent(polygon, solid, face, true);
+        self.polygon_ids.insert(key, (polygon, reversed));
     }
 
-    fn push_parent(&mut self, polygon: u32, solid: usize, face: usize, sign: i8) {
-        self.soup.polygon_parents[polygon as usize].push(Parent {
-            solid: solid as u32,
-            face: face as u32,
-            sign,
-        });
+    fn push_parent(&mut self, polygon: u32, solid: usize, face: usize, same_way: bool) {
+        let sign = if same_way { 1 } else { -1 };
+        self.parents.push((polygon, Parent { solid: solid as u32, face: face as u32, sign }));
+    }
+
+    /// Sorts the parents by polygon; each polygon's stay in the order of the input.
+    fn finished(self) -> Soup {
+        let mut soup = self.soup;
+        let mut offsets = vec![0u32; soup.polygon_flat.len() + 1];
+        for (polygon, _) in &self.parents {
+            offsets[*polygon as usize + 1] += 1;
+        }
+        for p in 1..offsets.len() {
+            offsets[p] += offsets[p - 1];
+        }
+        let mut fill = offsets.clone();
+        soup.parents = vec![Parent { solid: 0, face: 0, sign: 1 }; self.parents.len()];
+        for (polygon, parent) in self.parents {
+            let at = &mut fill[polygon as usize];
+            soup.parents[*at as usize] = parent;
+            *at += 1;
+        }
+        soup.parent_offsets = offsets;
+        soup
     }
 
     /// Adds the facets of a polygon, and tells whether it counts as planar; `None` when it has no inside.
@@ -262,21 +338,22 @@ impl Builder {
         polygon: u32,
         is_soft: impl Fn([u32; 2]) -> bool,
     ) {
-        let directed: Vec<u32> = edges
-            .map(|[p, q]| {
-                let ends = ascending([p, q]);
-                let soft = is_soft(ends);
-                2 * self.edge(ends, soft) + u32::from(p > q)
-            })
-            .collect();
+        let mut directed = std::mem::take(&mut self.directed);
+        directed.clear();
+        directed.extend(edges.map(|[p, q]| {
+            let ends = ascending([p, q]);
+            let soft = is_soft(ends);
+            2 * self.edge(ends, soft) + u32::from(p > q)
+        }));
         self.soup.facet_edges.push(&directed);
+        self.directed = directed;
         self.soup.facet_polygon.push(polygon);
         self.soup.geometry.push_facet(base);
     }
 
     fn edge(&mut self, ends: [u32; 2], soft: bool) -> u32 {
         let soup = &mut self.soup;
-        let id = *self.edge_ids.entry(ends).or_insert_with(|| {
+        let id = *soup.edge_ids.entry(ends).or_insert_with(|| {
             soup.edges.push(ends);
             soup.soft.push(true);
             soup.edges.len() as u32 - 1
@@ -301,18 +378,10 @@ fn without_repetition(cycle: impl Iterator<Item = u32>) -> Vec<u32> {
 }
 
 /// A key that is equal for polygons with the same loops, wherever these start and whichever way they turn.
-fn canonical(loops: &[Vec<u32>]) -> Option<Vec<u32>> {
-    let outer = loops.first()?;
-    if let [a, b, c] = outer.as_slice()
-        && loops.len() == 1
-    {
-        let mut key = [*a, *b, *c];
-        key.sort_unstable();
-        return (key[0] != key[1] && key[1] != key[2]).then(|| key.to_vec());
-    }
+fn canonical(loops: &[Vec<u32>]) -> Vec<u32> {
     let mut keys: Vec<Vec<u32>> = loops.iter().map(|l| canonical_cycle(l)).collect();
     keys[1..].sort_unstable();
-    Some(keys.join(&u32::MAX))
+    keys.join(&u32::MAX)
 }
 
 /// The cycle from its smallest entry towards the smaller of that entry's neighbours.

@@ -33,27 +33,59 @@ pub(crate) struct Jump {
     pub odd: bool,
 }
 
+/// The jumps of all faces, each face's sorted by solid.
+#[derive(Debug)]
+pub(crate) struct Jumps {
+    offsets: Vec<u32>,
+    jumps: Vec<Jump>,
+}
+
+impl Jumps {
+    pub(crate) fn new() -> Self {
+        Self { offsets: vec![0], jumps: Vec::new() }
+    }
+
+    /// Adds the next face with its contributions to the jumps: solid and signed coefficient.
+    pub(crate) fn push_face(&mut self, contributions: impl Iterator<Item = (u32, i32)>) {
+        let begin = self.jumps.len();
+        let jump =
+            |(solid, coefficient): (u32, i32)| Jump { solid, signed: coefficient, odd: coefficient % 2 != 0 };
+        self.jumps.extend(contributions.map(jump));
+        if self.jumps.len() - begin > 1 {
+            let mut all = self.jumps.split_off(begin);
+            all.sort_unstable_by_key(|j| j.solid);
+            self.jumps.extend(all.chunk_by(|a, b| a.solid == b.solid).map(|same| Jump {
+                solid: same[0].solid,
+                signed: same.iter().map(|j| j.signed).sum(),
+                odd: same.iter().fold(false, |odd, j| odd ^ j.odd),
+            }));
+        }
+        self.offsets.push(self.jumps.len() as u32);
+    }
+
+    fn of(&self, face: u32) -> &[Jump] {
+        &self.jumps[self.offsets[face as usize] as usize..self.offsets[face as usize + 1] as usize]
+    }
+
+    fn iter(&self) -> impl Iterator<Item = &[Jump]> + '_ {
+        self.offsets.windows(2).map(|w| &self.jumps[w[0] as usize..w[1] as usize])
+    }
+}
+
 impl Windings {
-    /// `cells_of_face` holds the cells in front and behind of each face, `jumps(f)` the face's jumps, sorted by
-    /// solid. O(faces · parents + entries).
-    pub(crate) fn new(
-        n_cells: usize,
-        n_solids: usize,
-        cells_of_face: &[[u32; 2]],
-        jumps: impl Fn(usize) -> Vec<Jump>,
-    ) -> Self {
-        let jumps: Vec<Vec<Jump>> = (0..cells_of_face.len()).map(jumps).collect();
+    /// `cells_of_face` holds the cells in front and behind of each face. O(faces · parents + entries).
+    pub(crate) fn new(n_cells: usize, n_solids: usize, cells_of_face: &[[u32; 2]], jumps: &Jumps) -> Self {
         let tree = spanning_tree(n_cells, cells_of_face);
         let mut closure = vec![Closure::Closed; n_solids];
-        let mut windings = propagate(n_cells, &tree, &jumps, |j| j.signed);
-        for (cells, jumps) in cells_of_face.iter().zip(&jumps) {
+        let mut windings = propagate(n_cells, &tree, jumps, |j| j.signed);
+        for (cells, jumps) in cells_of_face.iter().zip(jumps.iter()) {
             check_face(&windings, *cells, jumps, |j| j.signed, |a| a, &mut closure, Closure::Unoriented);
         }
         if closure.contains(&Closure::Unoriented) {
             let odd = |j: &Jump| i32::from(j.odd && closure[j.solid as usize] == Closure::Unoriented);
-            let parity = propagate(n_cells, &tree, &jumps, odd);
+            let parity = propagate(n_cells, &tree, jumps, odd);
             let mut open = closure.clone();
-            for (cells, jumps) in cells_of_face.iter().zip(&jumps) {
+            for (cells, jumps) in cells_of_face.iter().zip(jumps.iter()) {
                 check_face(&parity, *cells, jumps, odd, |a| a.rem_euclid(2), &mut open, Closure::Open);
             }
             for (cell, row) in windings.iter_mut().enumerate() {
@@ -120,13 +152,13 @@ fn spanning_tree(n_cells: usize, cells_of_face: &[[u32; 2]]) -> Vec<(u32, u32, u
 fn propagate(
     n_cells: usize,
     tree: &[(u32, u32, u32, i32)],
-    jumps: &[Vec<Jump>],
+    jumps: &Jumps,
     value: impl Fn(&Jump) -> i32,
 ) -> Vec<Vec<(u32, i32)>> {
     let mut rows: Vec<Vec<(u32, i32)>> = vec![Vec::new(); n_cells];
     for &(cell, from, face, sign) in tree {
         let mut row = rows[from as usize].clone();
-        for jump in &jumps[face as usize] {
+        for jump in jumps.of(face) {
             let change = sign * value(jump);
             match row.binary_search_by_key(&jump.solid, |e| e.0) {
                 _ if change == 0 => {}

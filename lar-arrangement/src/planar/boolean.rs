@@ -7,7 +7,7 @@ use crate::merge::{self, Faces, Removal};
 use crate::planar::input::{Drawing, NO_REGION};
 use crate::planar::result::PlanarArrangement;
 use crate::union_find::UnionFind;
-use crate::winding::{Closure, Jump, Windings};
+use crate::winding::{Closure, Jumps, Windings};
 use lar_core::{FaceId, Points};
 
 /// Polygons with holes in the plane.
@@ -41,9 +41,11 @@ impl PlanarArrangement {
     /// Winding numbers of the drawing's regions, from the jumps at the edges.
     pub(super) fn wind(&mut self, drawing: &Drawing) {
         let n_regions = drawing.regions.len();
-        let jumps = if n_regions == 0 { Vec::new() } else { self.jumps(drawing) };
-        let faces = if n_regions == 0 { Vec::new() } else { self.faces_of_edges() };
-        self.windings = Windings::new(self.n_faces() + 1, n_regions, &faces, |edge| jumps[edge].clone());
+        let (faces, jumps) = match n_regions {
+            0 => (Vec::new(), Jumps::new()),
+            _ => (self.faces_of_edges(), self.jumps(drawing)),
+        };
+        self.windings = Windings::new(self.n_faces() + 1, n_regions, &faces, &jumps);
         self.regions.clone_from(&drawing.regions);
     }
 
@@ -59,24 +61,15 @@ impl PlanarArrangement {
     }
 
     /// For each edge the regions that it bounds.
-    fn jumps(&self, drawing: &Drawing) -> Vec<Vec<Jump>> {
-        let mut jumps: Vec<Vec<Jump>> = vec![Vec::new(); self.n_edges()];
-        for segment in 0..drawing.segments.len() {
-            let region = drawing.region_of[segment];
-            if region == NO_REGION {
-                continue;
-            }
+    fn jumps(&self, drawing: &Drawing) -> Jumps {
+        let mut bounds: Vec<Vec<(u32, i32)>> = vec![Vec::new(); self.n_edges()];
+        for (segment, &region) in drawing.region_of.iter().enumerate().filter(|(_, r)| **r != NO_REGION) {
             for (edge, sign) in self.edges_of(segment) {
-                let list = &mut jumps[edge.index()];
-                match list.binary_search_by_key(&region, |j| j.solid) {
-                    Ok(at) => {
-                        list[at].signed += i32::from(sign);
-                        list[at].odd ^= true;
-                    }
-                    Err(at) => list.insert(at, Jump { solid: region, signed: i32::from(sign), odd: true }),
-                }
+                bounds[edge.index()].push((region, i32::from(sign)));
             }
         }
+        let mut jumps = Jumps::new();
+        bounds.into_iter().for_each(|list| jumps.push_face(list.into_iter()));
         jumps
     }
 

@@ -133,7 +133,7 @@ impl PlanarArranger {
         watch.lap(&mut stats, "faces");
         stats.grid_step = grid.step();
         let positions = lengths(&grid, &carriers, &chains, positions);
-        let mut out = assemble(positions, edges, &subdivision, chains, carriers.members);
+        let mut out = assemble(&positions, edges, &subdivision, chains, carriers.members);
         watch.lap(&mut stats, "complex");
         out.wind(drawing);
         watch.lap(&mut stats, "membership");
@@ -284,7 +284,7 @@ fn lengths(grid: &Grid, carriers: &Carriers, chains: &Chains, positions: Vec<[f6
 }
 
 fn assemble(
-    positions: Vec<[f64; 2]>,
+    positions: &[[f64; 2]],
     edges: Edges,
     subdivision: &Subdivision,
     chains: Chains,
