@@ -1,6 +1,7 @@
 //! Chain complexes of models: signed boundary operators from vertex sets.
 
 use crate::complex::sign_columns;
+use crate::face_edges::FaceLoops;
 use crate::{Cells, ChainComplex, FaceId, Model, ModelError, Operator, VertexId};
 use rustc_hash::FxHashMap;
 
@@ -34,7 +35,7 @@ impl ChainComplex {
             return Ok(Self::new(model.points().clone(), boundaries));
         }
         let faces = model.oriented_faces()?;
-        let edges = if model.cells(1).is_empty() { &sides(&faces.loops) } else { model.cells(1) };
+        let edges = if model.cells(1).is_empty() { &sides(faces.loops.loops()) } else { model.cells(1) };
         let mut boundaries =
             vec![edge_columns(model.points().len(), edges), face_columns(edges, &faces.loops)?];
         if dim == 3 {
@@ -55,7 +56,7 @@ impl Model {
 
     pub(crate) fn signed_boundary_2(&self) -> Result<Operator, ModelError> {
         let faces = self.oriented_faces()?;
-        let edges = if self.cells(1).is_empty() { &sides(&faces.loops) } else { self.cells(1) };
+        let edges = if self.cells(1).is_empty() { &sides(faces.loops.loops()) } else { self.cells(1) };
         face_columns(edges, &faces.loops)
     }
 }
@@ -78,16 +79,16 @@ pub(crate) fn sides(loops: &Cells) -> Cells {
     edges
 }
 
-/// ∂2: each loop's sides, +1 where it runs from the smaller vertex to the larger. Of equal edges the first
-/// counts.
-fn face_columns(edges: &Cells, loops: &Cells) -> Result<Operator, ModelError> {
+/// ∂2: the sides of each face's loops, +1 where a loop runs from the smaller vertex to the larger. Of equal
+/// edges the first counts.
+fn face_columns(edges: &Cells, faces: &FaceLoops) -> Result<Operator, ModelError> {
     let mut edge_of = FxHashMap::default();
     for (id, e) in (0_u32..).zip(edges.iter()) {
         edge_of.entry([e[0].min(e[1]), e[0].max(e[1])]).or_insert(id);
     }
-    let mut columns: Vec<Vec<(u32, i8)>> = Vec::with_capacity(loops.len());
-    for (face, cycle) in (0..).zip(loops.iter()) {
-        let mut column = Vec::with_capacity(cycle.len());
+    let mut columns: Vec<Vec<(u32, i8)>> = vec![Vec::new(); faces.len()];
+    for (face, cycle) in faces.pairs() {
+        let column = &mut columns[face as usize];
         for (i, &a) in cycle.iter().enumerate() {
             let b = cycle[(i + 1) % cycle.len()];
             let Some(&edge) = edge_of.get(&[a.min(b), a.max(b)]) else {
@@ -95,7 +96,6 @@ fn face_columns(edges: &Cells, loops: &Cells) -> Result<Operator, ModelError> {
             };
             column.push((edge, if a < b { 1 } else { -1 }));
         }
-        columns.push(column);
     }
     Ok(sign_columns(edges.len(), columns.into_iter()))
 }

@@ -180,12 +180,25 @@ impl Model {
         Ok(self.signed_boundary_1()?.transpose_into())
     }
 
-    /// Signed δ1 = ∂2ᵀ for convex faces: rows faces, columns edges, +1 where the face's loop runs from the
-    /// smaller vertex of the edge to the larger, −1 where it runs back. Loops are oriented as in
-    /// [`to_surface`](Self::to_surface), in the plane counter-clockwise.
+    /// Signed δ1 = ∂2ᵀ of faces convex or not, with holes or without: rows faces, columns edges, stored by rows,
+    /// +1 where a loop of the face runs from the smaller vertex of the edge to the larger, −1 where it runs
+    /// back. Loops are oriented as in [`to_surface`](Self::to_surface), in the plane counter-clockwise with
+    /// clockwise holes. Without signs: `.map(|x| x.abs())`. O(n log n).
     ///
     /// # Errors
-    /// When the model is malformed or a face is no simple loop of its edges.
+    /// When the model is malformed or the edges of a face make no loops.
+    ///
+    /// ```
+    /// use lar_core::{Cells, Model, Points};
+    /// // An L whose corner is filled by a triangle: their vertices alone would make 2-4 an edge of both.
+    /// let xy = vec![0., 0., 2., 0., 2., 1., 1., 1., 1., 2., 0., 2.];
+    /// let edges = vec![0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 0, 5, 2, 4];
+    /// let faces = [&[0, 1, 2, 3, 4, 5][..], &[2, 3, 4]].into_iter().collect();
+    /// let cells = vec![Cells::singletons(6), Cells::uniform(2, edges), faces];
+    /// let model = Model::new(Points::from_columns(2, xy), cells);
+    /// assert_eq!(model.unsigned_coboundary(1).unwrap().outer_view(0).unwrap().nnz(), 7);
+    /// assert_eq!(model.coboundary_1().unwrap().outer_view(0).unwrap().indices(), [0, 1, 2, 3, 4, 5]);
+    /// ```
     pub fn coboundary_1(&self) -> Result<Operator, ModelError> {
         Ok(self.signed_boundary_2()?.transpose_into())
     }

@@ -33,6 +33,7 @@ mod complex;
 mod conversions;
 mod embed;
 mod exterior;
+mod face_edges;
 mod face_loops;
 mod files;
 mod from_model;

@@ -1,16 +1,17 @@
 //! From vertex sets to oriented faces: what [`Model::to_surface`] and [`ChainComplex::from_model`] share.
 //!
-//! 1. The loop of each 2-cell: its 1-cells (those with both ends among its vertices) chained into a cycle, or
-//!    the 2-cell itself when the model has no 1-cells.
+//! 1. The loops of each 2-cell: its 1-cells (those with both ends among its vertices, chords left out) chained
+//!    into an outer cycle and holes, or the 2-cell itself when the model has no 1-cells.
 //! 2. Orientation. With 3-cells: each 3-cell's faces are those whose vertices it has; they are oriented
 //!    coherently and outward, and the signs of a face in its one or two 3-cells are added up. Without 3-cells,
 //!    faces found by incidence are oriented coherently over edges of two faces, each closed component outward
 //!    (in the plane: each face counter-clockwise); cyclic faces keep the orientation they came with.
 
+use crate::face_edges::{FaceLoops, loops_of_face, nest};
 use crate::incidence::contained_cells;
 use crate::listing::first_few;
 use crate::measure::{loop_area_2d, loop_cone_volume};
-use crate::orient::{by_edge, edge_uses, orient};
+use crate::orient::{Orientation, by_edge, edge_uses, orient};
 use crate::{CellId, Cells, FaceId, Model, ModelViolation, Surface, VertexId};
 
 #[cfg(doc)]
@@ -38,8 +39,8 @@ pub enum ModelError {
         /// Dimension of the highest cells.
         dim: usize,
     },
-    /// The edges of a 2-cell do not pass its vertices twice each: an edge is missing, or two vertices that are
-    /// not neighbours are joined by a chord.
+    /// The edges of a 2-cell do not pass its vertices twice each: an edge is missing, or there are so many
+    /// chords that which edges are sides is not settled by vertices with two edges.
     #[error("{edges} edges of 2-cell {face} meet at its vertex {vertex} where 2 are needed: {}", reason(*.edges))]
     FaceNotLoop {
         /// The 2-cell.
@@ -49,12 +50,13 @@ pub enum ModelError {
         /// How many of the 2-cell's edges end there.
         edges: usize,
     },
-    /// The edges of a 2-cell make more than one cycle.
-    #[error("the edges of 2-cell {face} make more than one cycle: vertex {vertex} is not on the first")]
+    /// The edges of a 2-cell make several cycles that are no outer loop with holes: one lies outside the
+    /// largest or inside another hole, or the points are not in the plane or in 3-space.
+    #[error("the edges of 2-cell {face} make several cycles, and the one of vertex {vertex} is no hole")]
     FaceManyLoops {
         /// The 2-cell.
         face: FaceId,
-        /// The smallest vertex that is not on the cycle of the 2-cell's smallest vertex.
+        /// The smallest vertex of the cycle.
         vertex: VertexId,
     },
     /// An edge inside a 3-cell has not exactly two of the 3-cell's faces.
@@ -109,8 +111,8 @@ fn reason(edges: usize) -> &'static str {
 
 /// The faces of a model as oriented loops.
 pub(crate) struct OrientedFaces {
-    /// One loop a face.
-    pub(crate) loops: Cells,
+    /// The loops of each face, the outer one first.
+    pub(crate) loops: FaceLoops,
     /// The sum of each face's signs in the boundaries of the 3-cells; 1 when there are none.
     pub(crate) coefficients: Vec<i8>,
     /// The faces of each 3-cell.
@@ -122,8 +124,8 @@ pub(crate) struct OrientedFaces {
 impl Model {
     /// The polygonal surface of a model in 3-space, for an arrangement.
     ///
-    /// The loop of a 2-cell is the cycle of the 1-cells that have both ends in it; in a model without 1-cells
-    /// each 2-cell is a loop already. With 3-cells, the coefficient of a face is the sum of its signs in the
+    /// The loops of a 2-cell are the cycles of the 1-cells that have both ends in it, chords left out: an outer
+    /// loop and holes. In a model without 1-cells each 2-cell is a loop already. With 3-cells, the coefficient of a face is the sum of its signs in the
     /// boundaries of the 3-cells: +1 for a face of one 3-cell, turned outward, and 0 for a wall between two.
     /// Without them all coefficients are +1; faces found by incidence are oriented coherently, each closed
     /// component outward, and cyclic faces keep their orientation.
@@ -147,8 +149,8 @@ impl Model {
         }
         let faces = self.oriented_faces()?;
         let mut surface = Surface::new(name, self.points().clone());
-        for (cycle, &coefficient) in faces.loops.iter().zip(&faces.coefficients) {
-            surface.push_face([cycle], coefficient);
+        for (f, &coefficient) in (0..).zip(&faces.coefficients) {
+            surface.push_face(faces.loops.face(f), coefficient);
         }
         Ok(surface)
     }
@@ -166,7 +168,7 @@ impl Model {
     pub(crate) fn oriented_faces(&self) -> Result<OrientedFaces, ModelError> {
         self.check_well_formed()?;
         let cyclic = self.cells(1).is_empty();
-        let loops = if cyclic { self.cells(2).clone() } else { self.incident_loops()? };
+        let loops = if cyclic { FaceLoops::single(self.cells(2).clone()) } else { self.incident_loops()? };
         if !self.cells(3).is_empty() {
             self.check_spatial()?;
             return self.orient_by_cells(&loops);
@@ -176,54 +178,47 @@ impl Model {
         Ok(OrientedFaces { loops, coefficients, cells: Cells::new(), cell_signs: Vec::new() })
     }
 
-    fn incident_loops(&self) -> Result<Cells, ModelError> {
+    fn incident_loops(&self) -> Result<FaceLoops, ModelError> {
         let edges_of = contained_cells(self.cells(1), self.cells(2), self.points().len());
-        let mut loops = Cells::with_capacity(edges_of.len(), edges_of.indices().len());
+        let mut faces = FaceLoops::new();
         for ((id, vertices), edges) in (0..).zip(self.cells(2).iter()).zip(edges_of.iter()) {
             let ends = edges.iter().map(|&e| [self.cells(1)[e as usize][0], self.cells(1)[e as usize][1]]);
-            loops.push(&chain_loop(FaceId(id), vertices, ends)?);
+            let loops = loops_of_face(FaceId(id), vertices, ends)?;
+            faces.push(&nest(FaceId(id), self.points(), loops)?);
         }
-        Ok(loops)
+        Ok(faces)
     }
 
-    fn orient_coherently(&self, loops: &Cells) -> Cells {
-        let faces: Vec<&[u32]> = loops.iter().collect();
-        match self.points().dim() {
-            2 => signed(&faces, |f| if loop_area_2d(self.points(), faces[f]) < 0. { -1 } else { 1 }),
-            3 => {
-                let found = orient(&faces);
-                let flip = self.inward_components(&faces, &found.signs, &found.component, &found.closed);
-                signed(&faces, |f| {
-                    if flip[found.component[f] as usize] { -found.signs[f] } else { found.signs[f] }
-                })
+    fn orient_coherently(&self, faces: &FaceLoops) -> FaceLoops {
+        if self.points().dim() == 2 {
+            let mut areas = vec![0.; faces.len()];
+            for (f, cycle) in faces.pairs() {
+                areas[f as usize] += loop_area_2d(self.points(), cycle);
             }
-            _ => {
-                let found = orient(&faces);
-                signed(&faces, |f| found.signs[f])
-            }
+            return faces.signed(|f| if areas[f] < 0. { -1 } else { 1 });
         }
+        let found = orient(faces.len(), faces.pairs());
+        if self.points().dim() != 3 {
+            return faces.signed(|f| found.signs[f]);
+        }
+        let flip = self.inward_components(faces, &found);
+        faces.signed(|f| if flip[found.component[f] as usize] { -found.signs[f] } else { found.signs[f] })
     }
 
     /// Per component: whether it is closed and its volume negative.
-    fn inward_components(
-        &self,
-        faces: &[&[u32]],
-        signs: &[i8],
-        component: &[u32],
-        closed: &[bool],
-    ) -> Vec<bool> {
-        let mut apex = vec![None; closed.len()];
-        let mut volume = vec![0.; closed.len()];
-        for (f, cycle) in faces.iter().enumerate() {
-            let c = component[f] as usize;
+    fn inward_components(&self, faces: &FaceLoops, found: &Orientation) -> Vec<bool> {
+        let mut apex = vec![None; found.closed.len()];
+        let mut volume = vec![0.; found.closed.len()];
+        for (f, cycle) in faces.pairs() {
+            let c = found.component[f as usize] as usize;
             let apex = *apex[c].get_or_insert(cycle[0]);
-            volume[c] += f64::from(signs[f])
+            volume[c] += f64::from(found.signs[f as usize])
                 * loop_cone_volume(self.points(), cycle, self.points().xyz(apex as usize));
         }
-        closed.iter().zip(volume).map(|(&closed, volume)| closed && volume < 0.).collect()
+        found.closed.iter().zip(volume).map(|(&closed, volume)| closed && volume < 0.).collect()
     }
 
-    fn orient_by_cells(&self, loops: &Cells) -> Result<OrientedFaces, ModelError> {
+    fn orient_by_cells(&self, loops: &FaceLoops) -> Result<OrientedFaces, ModelError> {
         let cells = contained_cells(self.cells(2), self.cells(3), self.points().len());
         let mut cell_signs = Vec::with_capacity(cells.indices().len());
         for (cell, faces) in (0..).zip(cells.iter()) {
@@ -241,8 +236,7 @@ impl Model {
         if let Some((face, cells)) = (0..).zip(uses).find(|&(_, n)| n > 2) {
             return Err(ModelError::FaceInManyCells { face: FaceId(face), cells });
         }
-        let faces: Vec<&[u32]> = loops.iter().collect();
-        let turned = signed(&faces, |f| if sums[f] < 0 { -1 } else { 1 });
+        let turned = loops.signed(|f| if sums[f] < 0 { -1 } else { 1 });
         for (&f, sign) in cells.indices().iter().zip(&mut cell_signs) {
             *sign *= if sums[f as usize] < 0 { -1 } else { 1 };
         }
@@ -251,73 +245,24 @@ impl Model {
     }
 
     /// The signs that turn the faces of one 3-cell outward.
-    fn outward_signs(&self, cell: CellId, faces: &[u32], loops: &Cells) -> Result<Vec<i8>, ModelError> {
-        let cycles: Vec<&[u32]> = faces.iter().map(|&f| &loops[f as usize]).collect();
-        for group in by_edge(&edge_uses((0..).zip(cycles.iter().copied()))) {
+    fn outward_signs(&self, cell: CellId, faces: &[u32], loops: &FaceLoops) -> Result<Vec<i8>, ModelError> {
+        let cycles = || (0..).zip(faces).flat_map(|(i, &f)| loops.face(f).map(move |cycle| (i, cycle)));
+        for group in by_edge(&edge_uses(cycles())) {
             if group.len() != 2 {
                 let edge = group[0].ends.map(VertexId);
                 return Err(ModelError::CellNotClosed { cell, edge, faces: group.len() });
             }
         }
-        let found = orient(&cycles);
+        let found = orient(faces.len(), cycles());
         if found.closed != [true] {
             return Err(ModelError::CellNotShell { cell, faces: faces.len() });
         }
-        let apex = self.points().xyz(cycles[0][0] as usize);
-        let cone =
-            |(cycle, &sign): (&&[u32], &i8)| f64::from(sign) * loop_cone_volume(self.points(), cycle, apex);
-        let volume: f64 = cycles.iter().zip(&found.signs).map(cone).sum();
+        let apex = cycles().next().map_or([0.; 3], |(_, cycle)| self.points().xyz(cycle[0] as usize));
+        let cone = |(i, cycle): (u32, &[u32])| {
+            f64::from(found.signs[i as usize]) * loop_cone_volume(self.points(), cycle, apex)
+        };
+        let volume: f64 = cycles().map(cone).sum();
         let outward = if volume < 0. { -1 } else { 1 };
         Ok(found.signs.iter().map(|sign| sign * outward).collect())
     }
-}
-
-/// The loops, those of negative sign reversed.
-fn signed(loops: &[&[u32]], sign: impl Fn(usize) -> i8) -> Cells {
-    let turned = |(f, cycle): (usize, &&[u32])| {
-        let mut cycle = cycle.to_vec();
-        if sign(f) < 0 {
-            cycle.reverse();
-        }
-        cycle
-    };
-    loops.iter().enumerate().map(turned).collect()
-}
-
-/// The cycle that the edges make of all `vertices`, from the smallest vertex towards its smaller neighbour.
-fn chain_loop(
-    face: FaceId,
-    vertices: &[u32],
-    edges: impl Iterator<Item = [u32; 2]>,
-) -> Result<Vec<u32>, ModelError> {
-    let mut ends: Vec<[u32; 2]> = edges.flat_map(|[a, b]| [[a, b], [b, a]]).collect();
-    ends.sort_unstable();
-    ends.dedup();
-    let neighbours = |v: u32| {
-        let first = ends.partition_point(|e| e[0] < v);
-        &ends[first..first + ends[first..].partition_point(|e| e[0] == v)]
-    };
-    let mut sorted = vertices.to_vec();
-    sorted.sort_unstable();
-    for &v in &sorted {
-        let edges = neighbours(v).len();
-        if edges != 2 {
-            return Err(ModelError::FaceNotLoop { face, vertex: VertexId(v), edges });
-        }
-    }
-    let start = sorted[0];
-    let mut cycle = vec![start];
-    let (mut previous, mut at) = (start, neighbours(start)[0][1]);
-    while at != start {
-        cycle.push(at);
-        let [one, other] = [neighbours(at)[0][1], neighbours(at)[1][1]];
-        (previous, at) = (at, if one == previous { other } else { one });
-    }
-    if cycle.len() < sorted.len() {
-        let mut seen = cycle;
-        seen.sort_unstable();
-        let missing = sorted.into_iter().find(|v| seen.binary_search(v).is_err()).unwrap_or(start);
-        return Err(ModelError::FaceManyLoops { face, vertex: VertexId(missing) });
-    }
-    Ok(cycle)
 }

@@ -44,10 +44,11 @@ pub(crate) fn by_edge(uses: &[EdgeUse]) -> impl Iterator<Item = &[EdgeUse]> {
     uses.chunk_by(|a, b| a.ends == b.ends)
 }
 
-/// Orients faces, each one loop, coherently over edges of two faces. O(n log n) in the total size of the loops.
-pub(crate) fn orient(loops: &[&[u32]]) -> Orientation {
-    let uses = edge_uses((0..).zip(loops.iter().copied()));
-    let (signs, component, n_components) = spread(loops.len(), &links(&uses));
+/// Orients faces, given as (face, loop) pairs, coherently over edges of two faces; the loops of a face turn
+/// together. O(n log n) in the total size of the loops.
+pub(crate) fn orient<'a>(n_faces: usize, loops: impl Iterator<Item = (u32, &'a [u32])>) -> Orientation {
+    let uses = edge_uses(loops);
+    let (signs, component, n_components) = spread(n_faces, &links(&uses));
     let mut closed = vec![true; n_components];
     for group in by_edge(&uses) {
         mark_open(group, &signs, &component, &mut closed);
@@ -119,7 +120,7 @@ mod tests {
 
     #[track_caller]
     fn check(loops: &[&[u32]], signs: &[i8], component: &[u32], closed: &[bool]) {
-        let found = orient(loops);
+        let found = orient(loops.len(), (0..).zip(loops.iter().copied()));
         assert_eq!((&found.signs[..], &found.component[..], &found.closed[..]), (signs, component, closed));
     }
 
@@ -157,7 +158,7 @@ mod tests {
             &[5, 1, 3],
         ];
         assert!(by_edge(&edge_uses((0..).zip(faces))).all(|group| group.len() == 2));
-        let found = orient(&faces);
+        let found = orient(faces.len(), (0..).zip(faces));
         assert_eq!((found.component, found.closed), (vec![0; 10], vec![false]));
     }
 }

@@ -104,7 +104,7 @@ fn square_with_edges(edges: &[u32]) -> Model {
 #[test]
 fn refusals() {
     check_error(
-        &square_with_edges(&[0, 1, 1, 2, 2, 3, 3, 0, 0, 2]),
+        &square_with_edges(&[0, 1, 1, 2, 2, 3, 3, 0, 0, 2, 1, 3]),
         "3 edges of 2-cell f0 meet at its vertex v0 where 2 are needed: it has a chord",
     );
     check_error(
@@ -120,6 +120,33 @@ fn refusals() {
     let (points, mut cells) = cuboid_grid(&[1, 1, 1]).into_parts();
     cells[2] = cells[2].iter().skip(1).collect();
     check_error(&Model::new(points, cells), "edge v0-v1 has 1 faces in 3-cell c0 where 2 are needed");
+}
+
+/// A plate with a square hole, extruded: one 3-cell, two faces of two loops, given as sets of vertices.
+fn frame() -> Model {
+    let xy = [[0., 0.], [4., 0.], [4., 4.], [0., 4.], [1., 1.], [3., 1.], [3., 3.], [1., 3.]];
+    let points: Vec<[f64; 3]> = [0., 2.].iter().flat_map(|&z| xy.map(|[x, y]| [x, y, z])).collect();
+    let ring = |base: u32| (0..4).map(move |i| [base + i, base + (i + 1) % 4]);
+    let posts = (0..8).map(|v| [v, v + 8]);
+    let edges: Cells = [0, 4, 8, 12].into_iter().flat_map(ring).chain(posts).collect();
+    let walls = [0, 4].into_iter().flat_map(ring).map(|[a, b]| vec![a, b, a + 8, b + 8]);
+    let faces: Cells = [(0..8).collect(), (8..16).collect()].into_iter().chain(walls).collect();
+    let cells = vec![Cells::singletons(16), edges, faces, Cells::uniform(16, (0..16).collect())];
+    Model::new(Points::from_xyz(&points), cells)
+}
+
+#[test]
+fn faces_with_holes() {
+    check_closed(&frame(), 10, 0, 24.);
+    check_closed(&skeleton(&frame(), 2), 10, 0, 24.);
+    let turned = frame().transformed(&(&r([0.3, -0.4, 1.]) * &s(&[-1., 1., 1.]))).unwrap();
+    check_closed(&turned, 10, 0, 24.);
+    let complex = lar_core::ChainComplex::from_model(&frame()).unwrap();
+    assert_eq!(complex.validate(), []);
+    assert!((complex.cell_volumes()[0] - 24.).abs() < 1e-14);
+    assert_eq!((complex.face_area(0), complex.boundary(2).outer_view(0).unwrap().nnz()), (12., 8));
+    let shell = lar_core::ChainComplex::from_surface(&frame().to_surface("frame").unwrap()).unwrap();
+    assert_eq!((shell.f_vector(), shell.validate()), (vec![16, 24, 10], vec![]));
 }
 
 #[test]
