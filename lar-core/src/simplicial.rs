@@ -73,7 +73,8 @@ pub enum SimplexError {
 /// number of faces.
 ///
 /// # Errors
-/// When the simplices are not all of one size, name a vertex twice, or name one that does not exist.
+/// When the simplices are not all of one size, name a vertex twice or one that does not exist, or `u32` cannot
+/// number their faces.
 ///
 /// ```
 /// use lar_core::{Cells, Points, simplicial_complex};
@@ -90,23 +91,22 @@ pub fn simplicial_complex(points: Points, simplices: Cells) -> Result<Model, Sim
         }
     }
     let size = simplex_size(&simplices)?;
-    Ok(with_skeletons(points, simplices, size))
+    with_skeletons(points, simplices, size)
 }
 
 /// The complex of well-formed simplices of `size` vertices with all its skeletons.
-fn with_skeletons(points: Points, simplices: Cells, size: usize) -> Model {
+fn with_skeletons(points: Points, simplices: Cells, size: usize) -> Result<Model, SimplexError> {
     let vertices = Cells::singletons(points.len());
     if size <= 1 {
-        return Model::new(points, vec![vertices]);
+        return Ok(Model::new(points, vec![vertices]));
     }
     let mut cells = vec![simplices];
     for _ in 2..size {
-        let facets = simplex_facets(&cells[cells.len() - 1]).expect("faces of simplices are simplices");
-        cells.push(facets);
+        cells.push(simplex_facets(&cells[cells.len() - 1])?);
     }
     cells.push(vertices);
     cells.reverse();
-    Model::new(points, cells)
+    Ok(Model::new(points, cells))
 }
 
 /// The number of vertices that all simplices have, 0 when there are none.
@@ -171,7 +171,7 @@ pub fn extrude_simplicial(base: &Model, pattern: &[f64]) -> Result<Model, Simple
             push_prism(simplex, level * n, n, &mut cells);
         }
     }
-    Ok(with_skeletons(stacked(base.points(), &levels), cells, size + 1))
+    with_skeletons(stacked(base.points(), &levels), cells, size + 1)
 }
 
 /// 0 and the sums of the first steps, without their signs.
@@ -228,9 +228,12 @@ fn stacked(points: &Points, levels: &[f64]) -> Points {
 #[doc(alias = "simplexGrid")]
 #[doc(alias = "larSimplexGrid1")]
 pub fn simplex_grid(shape: &[usize]) -> Result<Model, SimplexError> {
-    let vertices = shape.iter().fold(1_u128, |n, &k| n.saturating_mul(k as u128 + 1));
-    let simplices = (1_u128..).zip(shape).fold(1_u128, |n, (d, &k)| n.saturating_mul(d * k as u128));
-    check_size(vertices.max(simplices.saturating_mul(shape.len() as u128 + 1)))?;
+    let (mut vertices, mut simplices) = (1_u128, 1_u128);
+    for (d, &k) in (1_u128..).zip(shape) {
+        vertices = vertices.saturating_mul(k as u128 + 1);
+        simplices = simplices.saturating_mul(d * k as u128);
+        check_size(vertices.max(simplices.saturating_mul(d + 1)))?;
+    }
     let Some((&first, others)) = shape.split_first() else { return Ok(crate::cuboid_grid(&[])) };
     let line = crate::cuboid_grid(&[first]);
     let (mut points, mut simplices) = (line.points().clone(), line.cells(1).clone());
@@ -245,7 +248,7 @@ pub fn simplex_grid(shape: &[usize]) -> Result<Model, SimplexError> {
         points = stacked(&points, &levels(&vec![1.; steps])?);
         simplices = cells;
     }
-    Ok(with_skeletons(points, simplices, shape.len() + 1))
+    with_skeletons(points, simplices, shape.len() + 1)
 }
 
 /// Each quadrilateral, its vertices in grid order (v00, v01, v10, v11), cut into the triangles v00 v10 v01

@@ -269,6 +269,33 @@ fn glued_sides_that_meet() {
     assert!(torus.boundary_cells().unwrap().is_empty());
 }
 
+/// Numbering: the lowest index of each vertex, row-major; the seam closes, the centre is vertex 0.
+#[test]
+fn numbering_of_glued_grids() {
+    let disk = Disk { shape: [3, 2], ..Disk::default() }.model().unwrap();
+    let expected: [[u32; 3]; 9] =
+        [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 4, 2], [4, 5, 2], [2, 5, 3], [5, 6, 3], [3, 6, 1], [6, 4, 1]];
+    assert_eq!(disk.cells(2).indices(), expected.as_flattened());
+    let ball = Ball { shape: [2, 3, 1], ..Ball::default() }.model().unwrap();
+    let cells: [[u32; 4]; 6] =
+        [[0, 1, 2, 3], [0, 1, 3, 4], [0, 1, 4, 2], [0, 2, 3, 5], [0, 3, 4, 5], [0, 4, 2, 5]];
+    let sorted: Vec<Vec<u32>> = ball
+        .cells(3)
+        .iter()
+        .map(|cell| {
+            let mut cell = cell.to_vec();
+            cell.sort_unstable();
+            cell
+        })
+        .collect();
+    let expected = cells.map(|mut cell| {
+        cell.sort_unstable();
+        cell.to_vec()
+    });
+    assert_eq!(sorted, expected);
+    assert_eq!(ball.f_vector(), [6, 14, 15, 6]);
+}
+
 #[test]
 fn maps_of_models() {
     // The top of a prism pinched to a point.
