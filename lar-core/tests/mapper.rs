@@ -274,7 +274,7 @@ fn glued_sides_that_meet() {
 fn numbering_of_glued_grids() {
     let disk = Disk { shape: [3, 2], ..Disk::default() }.model().unwrap();
     let expected: [[u32; 3]; 9] =
-        [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 4, 2], [4, 5, 2], [2, 5, 3], [5, 6, 3], [3, 6, 1], [6, 4, 1]];
+        [[1, 2, 0], [2, 3, 0], [3, 1, 0], [1, 4, 2], [4, 5, 2], [2, 5, 3], [5, 6, 3], [3, 6, 1], [6, 4, 1]];
     assert_eq!(disk.cells(2).indices(), expected.as_flattened());
     let ball = Ball { shape: [2, 3, 1], ..Ball::default() }.model().unwrap();
     let cells: [[u32; 4]; 6] =
