@@ -1,7 +1,7 @@
 //! Checks of an arrangement against its input and against the laws of chain complexes.
 
 use lar_arrangement::Arrangement;
-use lar_core::{FaceId, Surface, Violation};
+use lar_core::{FaceId, Points, Surface, Violation};
 
 /// Relative difference that is allowed between the area of an input face and the sum of its pieces: rounding in sums
 /// of a few thousand terms.
@@ -19,23 +19,25 @@ type Vec3 = [f64; 3];
 /// `surfaces` are those that were arranged. O(size of both).
 #[must_use]
 pub fn parents_ok(arrangement: &Arrangement, surfaces: &[Surface]) -> bool {
+    let scale = unit(surfaces);
     let mut sums: Vec<Vec<Vec3>> = surfaces.iter().map(|s| vec![[0.0; 3]; s.n_faces()]).collect();
     for face in (0..).map(FaceId).take(arrangement.n_faces()) {
         let parents = arrangement.parents(face);
         if parents.is_empty() {
             return false;
         }
-        let area = arrangement.vector_area(face);
+        let loops = arrangement.face_vertices(face);
+        let (area, _) = measures(loops, |v| scaled(arrangement.complex().points(), v, scale));
         for parent in parents {
             let entry = sums.get_mut(parent.solid as usize).and_then(|s| s.get_mut(parent.face as usize));
             let Some(sum) = entry else { return false };
             *sum = std::array::from_fn(|k| sum[k] + f64::from(parent.sign) * area[k]);
         }
     }
-    let step = arrangement.stats().grid_step;
+    let step = arrangement.stats().grid_step * scale;
     surfaces.iter().zip(&sums).all(|(surface, sums)| {
         (0..surface.n_faces()).zip(sums).all(|(f, &sum)| {
-            let (area, perimeter) = measures(surface, f);
+            let (area, perimeter) = measures(surface.face(f), |v| scaled(&surface.points, v, scale));
             let slack = AREA_TOLERANCE * length(area) + SNAPPING_STEPS * step * perimeter;
             length(sub(area, sum)) <= slack
         })
@@ -51,15 +53,28 @@ pub fn boundary_squared_zero(complex: &lar_core::ChainComplex) -> bool {
     !complex.validate().iter().any(breaks)
 }
 
-/// The vector area of an input face, its holes counted against it, and the length of all its loops.
-fn measures(surface: &Surface, face: usize) -> (Vec3, f64) {
+/// A factor that brings all coordinates into ±1, so that areas neither overflow nor vanish.
+fn unit(surfaces: &[Surface]) -> f64 {
+    let coordinates = surfaces.iter().flat_map(|s| s.points.coords());
+    let largest = coordinates.fold(0.0, |m: f64, x| m.max(x.abs()));
+    let factor = largest.recip();
+    if factor.is_normal() { factor } else { 1.0 }
+}
+
+fn scaled(points: &Points, v: u32, scale: f64) -> Vec3 {
+    points.xyz(v as usize).map(|x| x * scale)
+}
+
+/// The vector area of a face, its holes counted against it, and the length of all its loops.
+fn measures<L: AsRef<[u32]>>(loops: impl Iterator<Item = L>, at: impl Fn(u32) -> Vec3) -> (Vec3, f64) {
     let (mut area, mut perimeter) = ([0.0; 3], 0.0);
-    for cycle in surface.face(face) {
+    for cycle in loops {
+        let cycle = cycle.as_ref();
         let Some(&first) = cycle.first() else { continue };
-        let origin = surface.points.xyz(first as usize);
+        let origin = at(first);
         for (i, &v) in cycle.iter().enumerate() {
             let next = cycle[(i + 1) % cycle.len()];
-            let [a, b] = [v, next].map(|v| sub(surface.points.xyz(v as usize), origin));
+            let [a, b] = [v, next].map(|v| sub(at(v), origin));
             let c = cross(a, b);
             area = std::array::from_fn(|k| area[k] + c[k] / 2.0);
             perimeter += length(sub(b, a));
@@ -104,7 +119,11 @@ mod tests {
     fn pieces_add_up_in_larger_scenes() {
         let random = (1..=8).map(|n| surfaces(&random_cubes(n + 2, n as u64)).unwrap());
         let spheres = two_spheres(4, 0.7).unwrap().to_vec();
-        for (i, input) in random.chain([spheres]).enumerate() {
+        let sizes = [1e-150, 1e150].map(|size| {
+            let cubes = surfaces(&three_cubes()).unwrap();
+            cubes.iter().map(|c| c.transformed(&s(&[size; 3])).unwrap()).collect()
+        });
+        for (i, input) in random.chain([spheres]).chain(sizes).enumerate() {
             let arrangement = arrange(&input).unwrap();
             assert!(parents_ok(&arrangement, &input), "scene {i}");
             assert!(boundary_squared_zero(arrangement.complex()), "scene {i}");

@@ -48,10 +48,10 @@ fn surface(path: &Path, surface: &Surface, out: &mut dyn Write) -> Result<(), Co
         writeln!(out, "malformed: {violation}")?;
     }
     let mesh = mesh::of_surface(surface)?;
-    writeln!(out, "{}, area {}", counted(mesh.n_components(), "component"), mesh.area())?;
+    writeln!(out, "{}, area {}", counted(mesh.n_components(), "component"), number(mesh.area()))?;
     let open = surface.boundary_edges();
     match open.first() {
-        None => writeln!(out, "closed, volume {}", mesh.signed_volume())?,
+        None => writeln!(out, "closed, volume {}", number(mesh.signed_volume()))?,
         Some(edge) => {
             let [from, to] = edge.ends.map(|v| surface.points.xyz(v.index()));
             let count = counted(open.len(), "boundary edge");
@@ -74,7 +74,7 @@ fn complex(path: &Path, complex: &ChainComplex, out: &mut dyn Write) -> Result<(
         writeln!(out, "{} exterior cell", if with_exterior { "with its" } else { "without" })?;
         let volumes = complex.cell_volumes();
         for (cell, volume) in volumes.iter().enumerate().take(ROWS) {
-            writeln!(out, "volume of c{cell}: {volume}")?;
+            writeln!(out, "volume of c{cell}: {}", number(*volume))?;
         }
         if ROWS < volumes.len() {
             writeln!(out, "… and {} more cells", volumes.len() - ROWS)?;
@@ -91,6 +91,11 @@ fn bounds(points: &Points, out: &mut dyn Write) -> Result<(), CommandError> {
 }
 
 fn point(coordinates: &[f64]) -> String {
-    let texts: Vec<String> = coordinates.iter().map(ToString::to_string).collect();
+    let texts: Vec<String> = coordinates.iter().copied().map(number).collect();
     format!("({})", texts.join(", "))
+}
+
+/// The shortest text that reads back as the same number; with an exponent where digits would run long.
+fn number(x: f64) -> String {
+    if x == 0.0 || (1e-5..1e15).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
 }
