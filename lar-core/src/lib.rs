@@ -8,7 +8,9 @@
 //!   [`read_obj`]; place with [`t`], [`s`], [`r`] inside a [`Struct`].
 //! * Arrange: [`Model::to_surface`] turns a placed model into the [`Surface`] that an arrangement takes.
 //! * Ask: a [`ChainComplex`] holds the operators; [`Chain`]s are what they act on.
-//! * Keep: [`ChainComplex::to_json`], [`TriangleMesh::write_obj`], both through [`atomic_write()`].
+//! * Locate: [`locate_in_polygon`], [`SolidLocator`].
+//! * Keep: [`ChainComplex::to_json`], [`Struct::to_json`], [`write_mesh`], [`write_gltf`],
+//!   [`ChainComplex::to_svg`], all through [`atomic_write()`].
 //!
 //! Broken input is data: `validate` methods list every violation. Functions that can refuse return an error
 //! that names the cells and values concerned. Nothing here prints.
@@ -54,6 +56,7 @@ mod merge;
 mod mesh;
 mod model;
 mod model_faces;
+mod model_json;
 mod multi_index;
 mod obj;
 mod orbits;
@@ -93,6 +96,7 @@ pub use locate::{LocateError, Location, SolidLocator, locate_in_polygon};
 pub use mesh::TriangleMesh;
 pub use model::{Model, ModelViolation};
 pub use model_faces::ModelError;
+pub use model_json::ModelJsonError;
 pub use multi_index::{masks_of_order, row_major_index};
 pub use obj::{ObjError, ObjGrouping, parse_obj, read_obj};
 pub use orbits::{PermutationError, permutation_orbits};

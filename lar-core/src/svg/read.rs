@@ -21,6 +21,15 @@ use svgtypes::{Length, LengthUnit};
 /// When the file cannot be read, is no SVG, an attribute is malformed or uses what is not supported (lengths
 /// in % or em, nested `viewBox`), a point is not finite, or the tolerance asks for more points than a file of
 /// this size is allowed (a million and a hundred a byte).
+///
+/// ```
+/// let path = std::env::temp_dir().join(format!("lar-plan-{}.svg", std::process::id()));
+/// std::fs::write(&path, "<svg><rect width='2' height='1'/></svg>").unwrap();
+/// let plan = lar_core::read_svg(&path, 0.01)?;
+/// assert_eq!(plan.to_model().f_vector(), [4, 4]);
+/// # std::fs::remove_file(&path).unwrap();
+/// # Ok::<(), lar_core::SvgError>(())
+/// ```
 #[doc(alias = "svg2lar")]
 #[doc(alias = "svg2lines")]
 pub fn read_svg(path: impl AsRef<Path>, tolerance: f64) -> Result<Drawing, SvgError> {
