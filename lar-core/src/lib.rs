@@ -4,8 +4,8 @@
 //! boundary operators ∂p : Cp → Cp−1 with entries −1, 0, +1. Every other crate of the workspace meets in
 //! these types and in nothing else.
 //!
-//! * Build: [`cuboid_grid`], [`simplex_grid`], [`product`], [`simplex`], the shapes of [`mapper`], or
-//!   [`read_obj`]; place with [`t`], [`s`], [`r`] inside a [`Struct`].
+//! * Build: [`cuboid_grid`], [`simplex_grid`], [`product`], [`simplex`], the shapes of [`mapper`]; read with
+//!   [`read_surface`]; place with [`t`], [`s`], [`r`] inside a [`Struct`].
 //! * Arrange: [`Model::to_surface`] turns a placed model into the [`Surface`] that an arrangement takes.
 //! * Ask: a [`ChainComplex`] holds the operators; [`Chain`]s are what they act on.
 //! * Locate: [`locate_in_polygon`], [`SolidLocator`].
