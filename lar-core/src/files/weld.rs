@@ -79,11 +79,13 @@ impl<T: Bits, const D: usize> Welder<T, D> {
 
     /// The points, vertex after vertex.
     pub(crate) fn into_points(self) -> Points {
-        let Self { blocks, n, slots } = self;
+        let Self { mut blocks, n, slots } = self;
         drop(slots);
-        let mut coords = Vec::with_capacity(n as usize * D);
-        for block in blocks {
-            coords.extend(block.into_iter().flatten().map(T::to_f64));
+        // From the last block to the first: memory freed at the end of the heap goes back to the system.
+        let mut coords = vec![0.; n as usize * D];
+        while let Some(block) = blocks.pop() {
+            let to = coords[blocks.len() * BLOCK * D..].iter_mut();
+            to.zip(block.as_flattened()).for_each(|(to, &from)| *to = from.to_f64());
         }
         Points::from_columns(D, coords)
     }
