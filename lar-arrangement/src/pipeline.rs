@@ -68,7 +68,7 @@ pub struct Arranger {
 ///
 /// # Errors
 /// Points that are not three-dimensional or not finite, faces that name vertices that do not exist.
-#[doc(alias = "spatial_arrangement")]
+#[doc(alias("spatial_arrangement", "spaceindex", "frag_face"))]
 #[doc(alias = "arrangement3D")]
 pub fn arrange(surfaces: &[Surface]) -> Result<Arrangement, ArrangementError> {
     Arranger::new().arrange(surfaces)

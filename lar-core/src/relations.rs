@@ -77,6 +77,7 @@ impl Incidence {
     }
 
     /// The whole relation: [`batch`](Self::batch) with each p-cell alone.
+    #[doc(alias("VV", "VE", "VF", "EV", "EE", "EF", "FV", "FE", "FF"))]
     #[must_use]
     pub fn relation(&self, p: usize, q: usize) -> Cells {
         let n = self.n_cells.get(p).copied().unwrap_or(0);

@@ -31,3 +31,8 @@ pub mod tables;
 pub mod three_cubes;
 
 pub use error::CommandError;
+
+/// The programs in the README are compiled and run with the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;

@@ -67,6 +67,7 @@ pub struct PlanarArrangement {
 ///
 /// # Errors
 /// Points that are not two-dimensional or not finite, segments between points that do not exist.
+#[doc(alias = "minimal_2cycles")]
 pub fn planar_arrangement(drawing: &Drawing) -> Result<PlanarArrangement, ArrangementError> {
     PlanarArranger::new().arrange(drawing)
 }
