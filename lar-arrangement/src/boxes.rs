@@ -1,6 +1,8 @@
 //! Broad phase: a tree of boxes over points in Z-order, eight children a node, built in bulk.
 
 use crate::parallel;
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
 
 /// An axis-aligned closed box.
 #[derive(Clone, Copy, Debug)]
@@ -34,6 +36,28 @@ impl Aabb {
 }
 
 const WIDTH: usize = 8;
+
+/// A node of the tree, ordered by how far right it reaches.
+#[derive(PartialEq)]
+struct Reach {
+    x: f64,
+    level: usize,
+    i: usize,
+}
+
+impl Eq for Reach {}
+
+impl Ord for Reach {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.x.total_cmp(&other.x).then_with(|| (self.level, self.i).cmp(&(other.level, other.i)))
+    }
+}
+
+impl PartialOrd for Reach {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
 
 /// Boxes in a tree.
 #[derive(Debug)]
@@ -77,25 +101,29 @@ impl BoxTree {
         self.leaves(target, 0, &mut |leaf| visit(self.items[leaf]));
     }
 
-    /// Calls `visit` with items whose boxes meet `target`, those that reach farther right roughly first. The call
-    /// is given the current bound and returns a new one: boxes that end left of it are left out.
+    /// Calls `visit` with items whose boxes meet `target`, those that reach farther right first. The call is given
+    /// the current bound and returns a new one: boxes that end left of it are left out.
+    ///
+    /// Best first, not depth first: a subtree without anything of use must not be searched before the bound is
+    /// known from another one.
     pub(crate) fn query_leftwards(&self, target: &Aabb, mut visit: impl FnMut(u32, f64) -> f64) {
         let mut bound = f64::NEG_INFINITY;
+        let node = |level: usize, i: usize| Reach { x: self.levels[level][i].hi[0], level, i };
         let top = self.levels.len() - 1;
-        let mut stack: Vec<(usize, usize)> = (0..self.levels[top].len()).map(|i| (top, i)).collect();
-        while let Some((level, i)) = stack.pop() {
-            let node = &self.levels[level][i];
-            if node.hi[0] < bound || !node.meets(target) {
+        let mut heap: BinaryHeap<Reach> = (0..self.levels[top].len()).map(|i| node(top, i)).collect();
+        while let Some(Reach { x, level, i }) = heap.pop() {
+            if x < bound {
+                return;
+            }
+            if !self.levels[level][i].meets(target) {
                 continue;
             }
             if level == 0 {
                 bound = visit(self.items[i], bound);
                 continue;
             }
-            let below = &self.levels[level - 1];
-            let first = stack.len();
-            stack.extend((i * WIDTH..((i + 1) * WIDTH).min(below.len())).map(|c| (level - 1, c)));
-            stack[first..].sort_by(|a, b| below[a.1].hi[0].total_cmp(&below[b.1].hi[0]));
+            let below = self.levels[level - 1].len();
+            heap.extend((i * WIDTH..((i + 1) * WIDTH).min(below)).map(|c| node(level - 1, c)));
         }
     }
 

@@ -51,6 +51,11 @@ impl Grid {
         scaled(1.0, self.exponent)
     }
 
+    /// Exponent of the step.
+    pub(crate) fn exponent(&self) -> i32 {
+        self.exponent
+    }
+
     /// The nearest grid point.
     pub(crate) fn snap(&self, p: [f64; 3]) -> [i64; 3] {
         std::array::from_fn(|k| scaled(p[k] - self.origin[k], -self.exponent).round() as i64)

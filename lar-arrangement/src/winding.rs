@@ -105,6 +105,16 @@ impl Windings {
         Self { offsets, entries, closure }
     }
 
+    /// For new cells their old ones: the same numbers, and all zero where there is no old one.
+    pub(crate) fn of_some(&self, old_cells: &[Option<usize>]) -> Self {
+        let mut out = Self { offsets: vec![0], entries: Vec::new(), closure: self.closure.clone() };
+        for old in old_cells {
+            out.entries.extend(old.iter().flat_map(|&old| self.of_cell(old)));
+            out.offsets.push(out.entries.len() as u32);
+        }
+        out
+    }
+
     /// The solids with a winding number other than zero in a cell.
     pub(crate) fn of_cell(&self, cell: usize) -> &[(u32, i32)] {
         &self.entries[self.offsets[cell] as usize..self.offsets[cell + 1] as usize]

@@ -50,7 +50,7 @@ impl PlanarArrangement {
     }
 
     /// The faces on the right and on the left of each edge.
-    fn faces_of_edges(&self) -> Vec<[u32; 2]> {
+    pub(super) fn faces_of_edges(&self) -> Vec<[u32; 2]> {
         let mut faces = vec![[0; 2]; self.n_edges()];
         for face in 0..=self.n_faces() as u32 {
             for h in self.half_edges(FaceId(face)) {
@@ -153,8 +153,7 @@ impl PlanarArrangement {
             .map(|(between, unused)| between || *unused)
             .collect();
         let (new_face, n_new_faces) = sets.labels();
-        let edges: Vec<[u32; 2]> =
-            self.complex().boundary(1).indices().chunks_exact(2).map(|ends| [ends[0], ends[1]]).collect();
+        let edges = self.edges();
         let mut straight = merge::with_two_edges(&edges, &removed, 0..self.n_vertices() as u32);
         straight.retain(|_, [e, f]| self.carrier_of[*e as usize] == self.carrier_of[*f as usize]);
         let view = Faces { edges: &edges, loops: &loops, face_loops: &face_loops };

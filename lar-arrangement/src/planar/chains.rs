@@ -19,6 +19,8 @@ pub(crate) struct Chains {
     pub offsets: Vec<u32>,
     /// Vertex of each grid point that ends a segment.
     pub vertex_of_point: Vec<u32>,
+    /// Places in `chain` of the first and last vertex of each member of a carrier.
+    pub stretches: Vec<[u32; 2]>,
 }
 
 /// Where a vertex comes from.
@@ -54,7 +56,29 @@ impl Chains {
             same.extend(part.same);
         }
         out.number(n_points, sources, &same);
+        out.find_stretches(carriers);
         out
+    }
+
+    /// Most members are whole carriers; the places of the others are looked up a carrier at a time, all in one pass.
+    fn find_stretches(&mut self, carriers: &Carriers) {
+        let whole = |c: u32| [self.offsets[c as usize], self.offsets[c as usize + 1] - 1];
+        self.stretches = carriers.members.iter().map(|m| whole(m.carrier)).collect();
+        let is_part =
+            |&i: &usize| carriers.members[i].ends != carriers.ends[carriers.members[i].carrier as usize];
+        let mut parts: Vec<usize> = (0..carriers.members.len()).filter(is_part).collect();
+        parts.sort_by_key(|&i| carriers.members[i].carrier);
+        let mut place_of = vec![0; if parts.is_empty() { 0 } else { self.vertices.len() }];
+        for same in parts.chunk_by(|&i, &j| carriers.members[i].carrier == carriers.members[j].carrier) {
+            let carrier = carriers.members[same[0]].carrier;
+            for (&v, place) in self.along(carrier).iter().zip(self.offsets[carrier as usize]..) {
+                place_of[v as usize] = place;
+            }
+            for &i in same {
+                self.stretches[i] =
+                    carriers.members[i].ends.map(|p| place_of[self.vertex_of_point[p as usize] as usize]);
+            }
+        }
     }
 
     /// Numbers the vertices that occur, points first, crossings in the order they were found.

@@ -29,10 +29,7 @@ pub(crate) const NO_EDGE: u32 = u32::MAX;
 impl PlanarEmbedding<'_> {
     /// x and y times the denominator, and the denominator, which is positive: at most 126 and 84 bits.
     fn exact(&self, vertex: u32) -> ([Int<3>; 2], i128) {
-        match self.chains.vertices[vertex as usize] {
-            VertexSource::Point(p) => (self.carriers.points[p as usize].map(Int::from), 1),
-            VertexSource::Crossing([s, t]) => exact_crossing(self.carriers, s, t),
-        }
+        exact_vertex(self.carriers, self.chains.vertices[vertex as usize])
     }
 
     fn cmp(&self, a: u32, b: u32, axis: usize) -> Ordering {
@@ -83,12 +80,7 @@ impl PlanarEmbedding<'_> {
 
     /// Whether the vertex is to the right of the carrier's line, strictly.
     fn is_right_of(&self, vertex: u32, carrier: u32, upwards: bool) -> bool {
-        let [p, _] = self.carriers.at(carrier);
-        let d = self.carriers.direction(carrier);
-        let (position, w) = self.exact(vertex);
-        let offset: [Int<4>; 2] = [0, 1].map(|k| position[k].resize() - Int::from(p[k]) * Int::from(w));
-        // d × (v − p), negative on the right of the direction.
-        let side = (Int::from(d[0]) * offset[1]).cmp(&(Int::from(d[1]) * offset[0]));
+        let side = side_of_carrier(self.carriers, carrier, self.exact(vertex));
         if upwards { side.is_lt() } else { side.is_gt() }
     }
 
@@ -99,6 +91,26 @@ impl PlanarEmbedding<'_> {
         let below = |v: &u32| self.cmp(*v, vertex, 1).is_le();
         let n = chain.partition_point(|v| below(v) == rising);
         self.edge_at[self.chains.offsets[carrier as usize] as usize + n - 1]
+    }
+}
+
+/// d × (v − p): `Greater` when a vertex lies left of a carrier's direction, `Less` when right of it.
+pub(crate) fn side_of_carrier(
+    carriers: &Carriers,
+    carrier: u32,
+    (position, w): ([Int<3>; 2], i128),
+) -> Ordering {
+    let [p, _] = carriers.at(carrier);
+    let d = carriers.direction(carrier);
+    let offset: [Int<4>; 2] = [0, 1].map(|k| position[k].resize() - Int::from(p[k]) * Int::from(w));
+    (Int::from(d[0]) * offset[1]).cmp(&(Int::from(d[1]) * offset[0]))
+}
+
+/// Coordinates times the denominator, and the denominator, which is positive: at most 126 and 84 bits.
+pub(crate) fn exact_vertex(carriers: &Carriers, source: VertexSource) -> ([Int<3>; 2], i128) {
+    match source {
+        VertexSource::Point(p) => (carriers.points[p as usize].map(Int::from), 1),
+        VertexSource::Crossing([s, t]) => exact_crossing(carriers, s, t),
     }
 }
 

@@ -49,6 +49,12 @@ impl Drawing {
         out
     }
 
+    /// Adds a point; returns its number.
+    pub fn push_point(&mut self, point: [f64; 2]) -> u32 {
+        self.points.push(&point);
+        self.points.len() as u32 - 1
+    }
+
     /// Adds a segment between two of the points.
     pub fn push_segment(&mut self, ends: [u32; 2]) {
         self.segments.push(ends);

@@ -10,8 +10,13 @@ mod chains;
 mod crossings;
 mod faces;
 mod input;
+mod isolated;
+mod location;
+mod query;
+mod restrict;
 mod result;
 
 pub use boolean::Polygons;
 pub use input::Drawing;
+pub use location::{Location, Locator};
 pub use result::{Dangling, PlanarArrangement, PlanarArranger, planar_arrangement};

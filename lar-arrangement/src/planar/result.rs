@@ -5,17 +5,19 @@ use crate::error::ArrangementError;
 use crate::grid::Grid;
 use crate::kernel::{Int, rounded_quotient};
 use crate::parallel;
-use crate::planar::carriers::{Carriers, Member};
+use crate::planar::carriers::Carriers;
 use crate::planar::chains::{Chains, VertexSource};
 use crate::planar::crossings::{carrier_boxes, crossings};
 use crate::planar::faces::{NO_EDGE, PlanarEmbedding, exact_crossing};
 use crate::planar::input::Drawing;
+use crate::planar::location::LocationIndex;
 use crate::stats::{Stats, Watch};
 use crate::subdivision::Subdivision;
 use crate::union_find::UnionFind;
 use crate::winding::Windings;
-use lar_core::{Cells, ChainComplex, EdgeId, FaceId, Points};
+use lar_core::{Biconnected, Cells, ChainComplex, EdgeId, FaceId, Graph, Points, VertexId};
 use std::num::NonZeroUsize;
+use std::sync::OnceLock;
 
 /// What becomes of edges with the same face on both sides: ends that lead nowhere, and bridges between parts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -31,7 +33,8 @@ pub enum Dangling {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PlanarArranger {
     threads: Option<NonZeroUsize>,
-    dangling: Dangling,
+    pub(super) dangling: Dangling,
+    pub(super) keep_isolated: bool,
 }
 
 /// The partition of the plane that some segments generate.
@@ -41,17 +44,23 @@ pub struct PlanarArranger {
 /// clockwise), so every row has one +1 and one −1, or is empty when the edge dangles.
 #[derive(Debug)]
 pub struct PlanarArrangement {
-    complex: ChainComplex,
-    loops: Cells,
-    face_loops: Vec<u32>,
-    n_components: usize,
-    members: Vec<Member>,
+    pub(super) complex: ChainComplex,
+    pub(super) loops: Cells,
+    pub(super) face_loops: Vec<u32>,
+    pub(super) n_components: usize,
+    pub(super) carriers: Carriers,
     chains: Chains,
-    edge_at: Vec<u32>,
+    /// What each vertex is.
+    pub(super) sources: Vec<VertexSource>,
+    pub(super) grid: Grid,
+    pub(super) edge_at: Vec<u32>,
+    /// The index for point location, built when it is first asked for.
+    pub(super) index: OnceLock<LocationIndex>,
     /// Carrier of each edge: edges of one carrier lie on one line.
     pub(super) carrier_of: Vec<u32>,
     pub(super) regions: Vec<String>,
     pub(super) windings: Windings,
+    pub(super) isolated: Vec<(VertexId, FaceId)>,
     stats: Stats,
 }
 
@@ -90,6 +99,15 @@ impl PlanarArranger {
     #[must_use]
     pub fn dangling(mut self, dangling: Dangling) -> Self {
         self.dangling = dangling;
+        self
+    }
+
+    /// Makes vertices of points in which no segment with length ends (points of segments without length, or of no
+    /// segment) and that lie on no edge of the result. They are left out by default. A point on an edge splits
+    /// nothing, with or without a segment.
+    #[must_use]
+    pub fn keep_isolated(mut self, keep: bool) -> Self {
+        self.keep_isolated = keep;
         self
     }
 
@@ -134,10 +152,13 @@ impl PlanarArranger {
         watch.lap(&mut stats, "faces");
         stats.grid_step = grid.step();
         let positions = lengths(&grid, &carriers, &chains, positions);
-        let mut out = assemble(&positions, edges, &subdivision, chains, carriers.members);
+        let mut out = assemble(&positions, edges, &subdivision, chains, carriers, grid);
         watch.lap(&mut stats, "complex");
         out.wind(drawing);
         watch.lap(&mut stats, "membership");
+        if self.keep_isolated {
+            out.add_isolated(|_| true);
+        }
         out.stats = stats;
         Ok(out)
     }
@@ -289,15 +310,17 @@ fn assemble(
     edges: Edges,
     subdivision: &Subdivision,
     chains: Chains,
-    members: Vec<Member>,
+    carriers: Carriers,
+    grid: Grid,
 ) -> PlanarArrangement {
     let mut used = vec![false; positions.len()];
     edges.ends.as_flattened().iter().for_each(|&v| used[v as usize] = true);
     let mut new = vec![0u32; positions.len()];
-    let mut coords = Vec::new();
+    let (mut coords, mut sources) = (Vec::new(), Vec::new());
     for (v, position) in positions.iter().enumerate().filter(|(v, _)| used[*v]) {
         new[v] = (coords.len() / 2) as u32;
         coords.extend_from_slice(position);
+        sources.push(chains.vertices[v]);
     }
     let points = Points::from_columns(2, coords);
     let ends: Vec<[u32; 2]> = edges.ends.iter().map(|e| e.map(|v| new[v as usize])).collect();
@@ -344,12 +367,16 @@ fn assemble(
         loops,
         face_loops,
         n_components: sets.labels().1 as usize,
-        members,
+        carriers,
         chains,
+        sources,
+        grid,
+        index: OnceLock::new(),
         edge_at: edges.edge_at,
         carrier_of: edges.carrier_of,
         regions: Vec::new(),
         windings: Windings::default(),
+        isolated: Vec::new(),
         stats: Stats::default(),
     }
 }
@@ -379,7 +406,15 @@ impl PlanarArrangement {
         self.complex.n_cells(2) - 1
     }
 
-    /// Number of connected components of the edges.
+    /// Biconnected components of the edges, articulation points and bridges. Without dangling edges every component
+    /// is a union of cycles, and there are no bridges.
+    #[must_use]
+    pub fn biconnected_components(&self) -> Biconnected {
+        let graph = Graph::of_complex(&self.complex).expect("edges have two of the vertices as ends");
+        graph.biconnected_components()
+    }
+
+    /// Number of connected components of the edges, and of isolated vertices.
     #[must_use]
     pub fn n_components(&self) -> usize {
         self.n_components
@@ -425,22 +460,18 @@ impl PlanarArrangement {
     /// The edges that an input segment became, in its direction, with the sign of that direction relative to the
     /// edge's; without those that were dropped. Segments without length have none.
     pub fn edges_of(&self, segment: usize) -> impl Iterator<Item = (EdgeId, i8)> + '_ {
-        let at = self.members.binary_search_by_key(&(segment as u32), |m| m.input);
-        at.ok().into_iter().flat_map(|i| self.stretch(&self.members[i]))
+        let at = self.carriers.members.binary_search_by_key(&(segment as u32), |m| m.input);
+        at.ok().into_iter().flat_map(|i| self.stretch(i))
     }
 
-    fn stretch(&self, member: &Member) -> Vec<(EdgeId, i8)> {
-        let begin = self.chains.offsets[member.carrier as usize] as usize;
-        let chain = self.chains.along(member.carrier);
-        let place = |p: u32| {
-            let v = self.chains.vertex_of_point[p as usize];
-            chain.iter().position(|&x| x == v).expect("members end at vertices of their carrier")
-        };
-        let mut found: Vec<(EdgeId, i8)> = (place(member.ends[0])..place(member.ends[1]))
-            .filter(|i| self.edge_at[begin + i] != NO_EDGE)
-            .map(|i| (EdgeId(self.edge_at[begin + i]), if chain[i] < chain[i + 1] { 1 } else { -1 }))
+    fn stretch(&self, member: usize) -> Vec<(EdgeId, i8)> {
+        let [from, to] = self.chains.stretches[member].map(|place| place as usize);
+        let chain = &self.chains.chain;
+        let mut found: Vec<(EdgeId, i8)> = (from..to)
+            .filter(|&i| self.edge_at[i] != NO_EDGE)
+            .map(|i| (EdgeId(self.edge_at[i]), if chain[i] < chain[i + 1] { 1 } else { -1 }))
             .collect();
-        if member.reversed {
+        if self.carriers.members[member].reversed {
             found.reverse();
             found.iter_mut().for_each(|(_, sign)| *sign = -*sign);
         }
