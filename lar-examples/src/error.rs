@@ -1,7 +1,7 @@
 //! What the commands refuse, and the exit codes.
 
 use lar_arrangement::{ArrangementError, BooleanError, ExpressionError};
-use lar_core::{FileError, JsonError, ObjError};
+use lar_core::{FileError, JsonError, MeshFileError, ObjError};
 use lar_triangle::TriangulateError;
 use std::io;
 use std::path::PathBuf;
@@ -14,7 +14,10 @@ pub enum CommandError {
     /// The arguments are not what the command takes.
     #[error("{0}")]
     Usage(String),
-    /// An input file cannot be read, or an OBJ file cannot be written.
+    /// An input file cannot be read, or a mesh cannot be written.
+    #[error(transparent)]
+    Mesh(#[from] MeshFileError),
+    /// An OBJ file cannot be written.
     #[error(transparent)]
     Obj(#[from] ObjError),
     /// A chain complex cannot be read or written.
@@ -46,7 +49,7 @@ pub enum CommandError {
         files: [PathBuf; 2],
     },
     /// An input is a chain complex where surfaces are needed.
-    #[error("{}: a chain complex cannot be an operand; operands are OBJ files", .path.display())]
+    #[error("{}: a chain complex cannot be an operand; operands are OBJ, STL, PLY or OFF files", .path.display())]
     NotASurface {
         /// The file.
         path: PathBuf,

@@ -213,3 +213,21 @@ fn three_cubes_prints_the_numbers() {
     assert_eq!((run.code, run.err.as_str()), (0, ""));
     insta::assert_snapshot!(run.out);
 }
+
+/// Results of one Boolean are operands of the next, in every format that surfaces are read from.
+#[test]
+fn results_in_other_formats() {
+    let place = Place::with_cubes();
+    for extension in ["stl", "ply", "off"] {
+        let union = format!("union.{extension}");
+        done(&place, &["boolean", "A|B", "a.obj", "b.obj", "-o", &union]);
+        let run = done(&place, &["boolean", "A-B", &union, "c.obj", "-o", "rest.obj", "--json", "-"]);
+        let report: Value = serde_json::from_str(&run.out).expect("valid JSON");
+        let volume = report["volume"].as_f64().expect("a bounded result");
+        // Cells 110, 100 and 010 of the three cubes; STL rounds to 32 bits.
+        assert!((volume - (0.296879 + 0.597214 + 0.590061)).abs() < 2e-6, "{extension}: {volume}");
+        assert_eq!(report["closed"], true, "{extension}");
+    }
+    done(&place, &words("boolean A|B a.obj b.obj -o union.glb"));
+    assert!(place.path("union.glb").metadata().is_ok_and(|m| m.len() > 1000));
+}

@@ -87,7 +87,8 @@ fn items(krate: &str, text: &str) -> Vec<Item> {
 /// `impl<T> Type<T> {` → `Type`; also for `impl Trait for Type {`.
 fn implemented_type(line: &str) -> Option<String> {
     let named = line.split_once(" for ").map_or(line, |(_, after)| after);
-    let word = named.trim_start_matches("impl").split_whitespace().find(|w| w.starts_with(char::is_uppercase))?;
+    let word =
+        named.trim_start_matches("impl").split_whitespace().find(|w| w.starts_with(char::is_uppercase))?;
     Some(word.chars().take_while(|c| c.is_alphanumeric()).collect())
 }
 
@@ -95,7 +96,9 @@ fn implemented_type(line: &str) -> Option<String> {
 fn public_name(code: &str) -> Option<&str> {
     let rest = code.strip_prefix("pub ")?;
     let rest = rest.strip_prefix("const fn ").or_else(|| {
-        ["fn ", "struct ", "enum ", "trait ", "type ", "const ", "mod "].iter().find_map(|k| rest.strip_prefix(k))
+        ["fn ", "struct ", "enum ", "trait ", "type ", "const ", "mod "]
+            .iter()
+            .find_map(|k| rest.strip_prefix(k))
     })?;
     Some(rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().expect("split yields something"))
 }

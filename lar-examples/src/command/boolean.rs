@@ -5,7 +5,7 @@ use super::report::{Operand, Stages, Threads, counted};
 use crate::CommandError;
 use crate::output::{Sink, check_distinct, check_file};
 use lar_arrangement::{Arrangement, Detail, Expression, FillRule, Solid, SolidComplex};
-use lar_core::{FaceId, TriangleMesh};
+use lar_core::{FaceId, MeshFormat, TriangleMesh, write_mesh};
 use serde::Serialize;
 use std::io::Write;
 use std::path::PathBuf;
@@ -20,7 +20,8 @@ pub(crate) struct Boolean {
     expression: String,
     #[command(flatten)]
     inputs: Inputs,
-    /// Result: triangles as OBJ, or, when the name ends in `.json`, polygons with holes as a chain complex.
+    /// Result: triangles in the format of the extension (.obj, .stl, .ply, .off, .glb; OBJ for any other), or, when the
+    /// name ends in `.json`, polygons with holes as a chain complex.
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
     /// Write a report as JSON to a file, or with `-` to the standard output.
@@ -126,6 +127,8 @@ impl Boolean {
         let report = self.report(&arrangement, &operands, &solid, &surfaces, (time, start));
         if is_json(&self.output) {
             surfaces.polygons.complex.write_json(&self.output)?;
+        } else if MeshFormat::of_path(&self.output).is_some() {
+            write_mesh(&self.output, &surfaces.triangles)?;
         } else {
             surfaces.triangles.write_obj(&self.output)?;
         }

@@ -1,15 +1,15 @@
-//! Operands: OBJ files, named A, B, C, … in order, or by `name=path`.
+//! Operands: surface files, named A, B, C, … in order, or by `name=path`.
 
 use crate::CommandError;
 use lar_arrangement::{BooleanError, operand_names};
-use lar_core::{ObjGrouping, Surface, read_obj};
+use lar_core::{Surface, read_surface};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// The operands of a command.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct Inputs {
-    /// OBJ files, each one operand: named A, B, C, … in order, or NAME=PATH.
+    /// OBJ, STL, PLY or OFF files, each one operand: named A, B, C, … in order, or NAME=PATH.
     #[arg(value_name = "INPUT", required = true)]
     inputs: Vec<PathBuf>,
 }
@@ -78,13 +78,12 @@ fn split(input: &Path) -> Option<(&str, PathBuf)> {
     (is_name && !input.exists()).then(|| (name, path.into()))
 }
 
-/// Reads one OBJ file as a surface of this name.
+/// Reads one file as a surface of this name.
 pub(crate) fn read(name: &str, path: &Path) -> Result<Surface, CommandError> {
     if is_json(path) {
         return Err(CommandError::NotASurface { path: path.to_owned() });
     }
-    let mut surfaces = read_obj(path, ObjGrouping::Whole)?.into_iter();
-    let mut surface = surfaces.next().unwrap_or_else(|| Surface::new(name, lar_core::Points::new(3)));
+    let mut surface = read_surface(path)?.surface;
     name.clone_into(&mut surface.name);
     Ok(surface)
 }
