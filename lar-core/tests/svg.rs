@@ -334,7 +334,8 @@ proptest! {
         let at = at.index(chars.len());
         chars[at] = c;
         let _ = parse_svg(&chars.iter().collect::<String>(), "a.svg", 1.);
-        let cut: String = chars.iter().take(cut.index(chars.len())).collect();
+        // Without its last line break the file is still whole.
+        let cut: String = chars.iter().take(cut.index(text.trim_end().chars().count())).collect();
         prop_assert!(parse_svg(&cut, "a.svg", 1.).is_err());
     }
 }
