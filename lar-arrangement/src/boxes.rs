@@ -3,6 +3,7 @@
 use crate::parallel;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
+use std::ops::Range;
 
 /// An axis-aligned closed box.
 #[derive(Clone, Copy, Debug)]
@@ -108,22 +109,26 @@ impl BoxTree {
     /// known from another one.
     pub(crate) fn query_leftwards(&self, target: &Aabb, mut visit: impl FnMut(u32, f64) -> f64) {
         let mut bound = f64::NEG_INFINITY;
-        let node = |level: usize, i: usize| Reach { x: self.levels[level][i].hi[0], level, i };
         let top = self.levels.len() - 1;
-        let mut heap: BinaryHeap<Reach> = (0..self.levels[top].len()).map(|i| node(top, i)).collect();
+        let mut heap = BinaryHeap::new();
+        let add = |heap: &mut BinaryHeap<Reach>, bound: f64, level: usize, nodes: Range<usize>| {
+            for (node, i) in self.levels[level][nodes.clone()].iter().zip(nodes) {
+                if node.hi[0] >= bound && node.meets(target) {
+                    heap.push(Reach { x: node.hi[0], level, i });
+                }
+            }
+        };
+        add(&mut heap, bound, top, 0..self.levels[top].len());
         while let Some(Reach { x, level, i }) = heap.pop() {
             if x < bound {
                 return;
             }
-            if !self.levels[level][i].meets(target) {
-                continue;
-            }
             if level == 0 {
                 bound = visit(self.items[i], bound);
-                continue;
+            } else {
+                let end = ((i + 1) * WIDTH).min(self.levels[level - 1].len());
+                add(&mut heap, bound, level - 1, i * WIDTH..end);
             }
-            let below = self.levels[level - 1].len();
-            heap.extend((i * WIDTH..((i + 1) * WIDTH).min(below)).map(|c| node(level - 1, c)));
         }
     }
 
@@ -227,6 +232,23 @@ mod tests {
                 tree.query(target, |i| found.push(i));
                 found.sort_unstable();
                 let expected: Vec<u32> = (0..boxes.len() as u32).filter(|&i| boxes[i as usize].meets(target)).collect();
+                prop_assert_eq!(found, &expected[..]);
+                let mut found = Vec::new();
+                tree.query_leftwards(target, |i, bound| {
+                    found.push(i);
+                    bound
+                });
+                prop_assert!(found.is_sorted_by(|&i, &j| boxes[i as usize].hi[0] >= boxes[j as usize].hi[0]));
+                found.sort_unstable();
+                prop_assert_eq!(&found, &expected);
+                // With the middle of the target as a bound from the first visit on.
+                let (mut found, middle) = (Vec::new(), (target.lo[0] + target.hi[0]) / 2.0);
+                tree.query_leftwards(target, |i, _| {
+                    found.push(i);
+                    middle
+                });
+                found.sort_unstable();
+                let expected: Vec<u32> = expected.into_iter().filter(|&i| boxes[i as usize].hi[0] >= middle).collect();
                 prop_assert_eq!(found, expected);
             }
         }

@@ -49,10 +49,14 @@ impl Drawing {
         out
     }
 
-    /// Adds a point; returns its number.
+    /// Adds a point; returns its number. (A drawing whose points have not two coordinates is refused when it is
+    /// arranged; until then missing ones are left out and further ones are zero.)
     pub fn push_point(&mut self, point: [f64; 2]) -> u32 {
-        self.points.push(&point);
-        self.points.len() as u32 - 1
+        let number = self.points.len() as u32;
+        let mut coordinates = point.to_vec();
+        coordinates.resize(self.points.dim(), 0.0);
+        self.points.push(&coordinates);
+        number
     }
 
     /// Adds a segment between two of the points.
@@ -82,9 +86,7 @@ impl Drawing {
     pub fn push_polygon(&mut self, name: impl Into<String>, loops: &[Vec<[f64; 2]>]) -> usize {
         let mut cells = Cells::new();
         for cycle in loops {
-            let first = self.points.len() as u32;
-            cycle.iter().for_each(|p| self.points.push(p));
-            cells.push(&(first..self.points.len() as u32).collect::<Vec<_>>());
+            cells.push(&cycle.iter().map(|&p| self.push_point(p)).collect::<Vec<_>>());
         }
         self.push_region(name, cells.iter())
     }

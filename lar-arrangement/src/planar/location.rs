@@ -143,7 +143,16 @@ impl Locator<'_> {
         }
     }
 
-    /// Where many points lie, in parallel (with the feature `rayon`).
+    /// Where many points lie, in parallel (with the feature `rayon`), in their order.
+    ///
+    /// ```
+    /// use lar_arrangement::planar::{Drawing, Location, planar_arrangement};
+    /// let triangle = [[0., 0., 4., 0.], [4., 0., 0., 4.], [0., 4., 0., 0.]];
+    /// let a = planar_arrangement(&Drawing::from_segments(&triangle))?;
+    /// let found = a.locator().locate_all(&[[1., 1.], [2., 2.], [3., 3.]]);
+    /// assert!(matches!(found[..], [Location::Face(_), Location::Edge(_), Location::Face(lar_core::FaceId(0))]));
+    /// # Ok::<(), lar_arrangement::ArrangementError>(())
+    /// ```
     #[must_use]
     pub fn locate_all(&self, points: &[[f64; 2]]) -> Vec<Location> {
         let (n_chunks, range) = parallel::chunks(points.len(), 256);

@@ -105,6 +105,14 @@ impl PlanarArranger {
     /// Makes vertices of points in which no segment with length ends (points of segments without length, or of no
     /// segment) and that lie on no edge of the result. They are left out by default. A point on an edge splits
     /// nothing, with or without a segment.
+    ///
+    /// ```
+    /// use lar_arrangement::planar::{Drawing, PlanarArranger};
+    /// let dots = Drawing::from_segments(&[[0., 0., 0., 0.], [1., 2., 1., 2.], [1., 2., 1., 2.]]);
+    /// let a = PlanarArranger::new().keep_isolated(true).arrange(&dots)?;
+    /// assert_eq!((a.n_vertices(), a.n_components(), a.isolated_vertices().len()), (2, 2, 2));
+    /// # Ok::<(), lar_arrangement::ArrangementError>(())
+    /// ```
     #[must_use]
     pub fn keep_isolated(mut self, keep: bool) -> Self {
         self.keep_isolated = keep;
@@ -407,7 +415,18 @@ impl PlanarArrangement {
     }
 
     /// Biconnected components of the edges, articulation points and bridges. Without dangling edges every component
-    /// is a union of cycles, and there are no bridges.
+    /// is a union of cycles, and there are no bridges. O(n log n).
+    ///
+    /// ```
+    /// use lar_arrangement::planar::{Drawing, planar_arrangement};
+    /// let mut drawing = Drawing::new(lar_core::Points::new(2));
+    /// drawing.push_polygon("A", &[vec![[0., 0.], [1., 0.], [1., 1.]]]);
+    /// drawing.push_polygon("B", &[vec![[1., 1.], [2., 1.], [2., 2.]]]);
+    /// let found = planar_arrangement(&drawing)?.biconnected_components();
+    /// assert_eq!((found.components.len(), found.articulation_points.len()), (2, 1));
+    /// # Ok::<(), lar_arrangement::ArrangementError>(())
+    /// ```
+    #[doc(alias = "biconnectedComponent")]
     #[must_use]
     pub fn biconnected_components(&self) -> Biconnected {
         let graph = Graph::of_complex(&self.complex).expect("edges have two of the vertices as ends");

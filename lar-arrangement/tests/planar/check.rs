@@ -77,15 +77,20 @@ fn compare_faces(a: &PlanarArrangement, oracle: &Oracle, scale: f64) -> Result<(
         face.iter().map(|e| rounded(e, scale)).collect()
     };
     // Rounded vertices are off by half a unit in the last place, times the perimeter.
-    let reach = oracle.vertices.iter().flatten().map(|x| x.value().abs()).fold(1.0, f64::max);
-    let tolerance = 100.0 * reach * f64::EPSILON;
+    let coordinates = || oracle.vertices.iter().flatten().map(|x| x.value());
+    let (low, high) = (coordinates().fold(0.0, f64::min), coordinates().fold(1.0, f64::max));
+    let extent = |k: usize| {
+        let along = || oracle.vertices.iter().map(|p| p[k].value());
+        along().reduce(f64::max).unwrap_or(0.0) - along().reduce(f64::min).unwrap_or(0.0)
+    };
+    let tolerance = 100.0 * f64::EPSILON * high.max(-low) * extent(0).max(extent(1)).max(1.0);
     same("faces", &a.n_faces(), &oracle.faces.len())?;
     same("exterior", &directed_edges(a, FaceId(0)), &rounded_set(&oracle.exterior))?;
     let mut found: Vec<(BTreeSet<[Key; 2]>, f64)> = (1..=a.n_faces() as u32)
         .map(|f| (directed_edges(a, FaceId(f)), a.area(FaceId(f)) / scale / scale))
         .collect();
     let mut expected: Vec<(BTreeSet<[Key; 2]>, f64)> =
-        oracle.faces.iter().map(|(edges, area)| (rounded_set(edges), area.value())).collect();
+        oracle.faces.iter().map(|(edges, area)| (rounded_set(edges), *area)).collect();
     found.sort_by(|a, b| a.0.cmp(&b.0));
     expected.sort_by(|a, b| a.0.cmp(&b.0));
     for (found, expected) in found.iter().zip(&expected) {

@@ -46,7 +46,9 @@ impl Add for Fraction {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
-        Self::new(self.num * other.den + other.num * self.den, self.den * other.den)
+        let common = gcd(self.den, other.den);
+        let (a, b) = (other.den / common, self.den / common);
+        Self::new(self.num * a + other.num * b, self.den * a)
     }
 }
 
@@ -54,7 +56,9 @@ impl Sub for Fraction {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
-        Self::new(self.num * other.den - other.num * self.den, self.den * other.den)
+        let common = gcd(self.den, other.den);
+        let (a, b) = (other.den / common, self.den / common);
+        Self::new(self.num * a - other.num * b, self.den * a)
     }
 }
 
@@ -62,7 +66,8 @@ impl Mul for Fraction {
     type Output = Self;
 
     fn mul(self, other: Self) -> Self {
-        Self::new(self.num * other.num, self.den * other.den)
+        let (a, b) = (Self::new(self.num, other.den), Self::new(other.num, self.den));
+        Self { num: a.num * b.num, den: a.den * b.den }
     }
 }
 
@@ -70,7 +75,7 @@ impl Div for Fraction {
     type Output = Self;
 
     fn div(self, other: Self) -> Self {
-        Self::new(self.num * other.den, self.den * other.num)
+        Mul::mul(self, Self::new(other.den, other.num))
     }
 }
 
@@ -83,12 +88,6 @@ impl Ord for Fraction {
 impl PartialOrd for Fraction {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
-    }
-}
-
-impl std::iter::Sum for Fraction {
-    fn sum<I: Iterator<Item = Self>>(terms: I) -> Self {
-        terms.fold(Self::ZERO, Add::add)
     }
 }
 

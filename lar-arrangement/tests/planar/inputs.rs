@@ -67,3 +67,23 @@ pub(crate) fn variants(segments: &[Segment], random: &mut Random) -> Vec<(&'stat
         ("reversed", segments.iter().map(|s| [s[2], s[3], s[0], s[1]]).collect()),
     ]
 }
+
+/// Segments through a few common points, so many that each is met by a bundle; the bundles cross each other.
+pub(crate) fn stars(random: &mut Random, n_stars: usize, n_rays: usize, side: usize) -> Vec<Segment> {
+    let mut out = Vec::with_capacity(n_stars * n_rays);
+    for _ in 0..n_stars {
+        let centre = [(); 2].map(|()| random.below(side) as i64);
+        for _ in 0..n_rays {
+            let [dx, dy] = [(); 2].map(|()| random.below(side) as i64 - side as i64 / 2);
+            // Some begin in the middle, some cross it off their own middles.
+            let [back, ahead] = [random.below(3) as i64, 1 + random.below(2) as i64];
+            out.push([
+                centre[0] - back * dx,
+                centre[1] - back * dy,
+                centre[0] + ahead * dx,
+                centre[1] + ahead * dy,
+            ]);
+        }
+    }
+    out
+}

@@ -142,12 +142,14 @@ fn row(n: i32) -> Drawing {
     out
 }
 
+// Regression 1: locating a component looked at all horizontal edges to its left, 72 seconds.
 #[test]
 fn a_hundred_thousand_disjoint_squares_in_one_row() {
     let a = arranged(&row(100_000), Dangling::Drop);
     check(&a, [400_000, 400_000, 100_000, 100_000]);
 }
 
+// Regression 2: the edges of a segment were searched for along its whole line, 14 seconds.
 #[test]
 fn a_hundred_thousand_touching_regions_in_one_row() {
     let mut drawing = Drawing::new(Points::new(2));

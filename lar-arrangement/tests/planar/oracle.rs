@@ -17,7 +17,7 @@ pub(crate) struct Oracle {
     /// The edges that each segment covers, in its direction.
     pub pieces: Vec<Vec<Directed>>,
     /// Directed edges with the face on their left, and the area; the exterior face is not among them.
-    pub faces: Vec<(BTreeSet<Directed>, Fraction)>,
+    pub faces: Vec<(BTreeSet<Directed>, f64)>,
     pub exterior: BTreeSet<Directed>,
     pub n_components: usize,
     /// Loops of bounded faces.
@@ -70,35 +70,28 @@ impl Oracle {
         out
     }
 
-    /// Cycles around faces; those of positive area are faces, one of each component is a hole or outermost.
+    /// Every cycle goes around a face from inside, but for one of each component, which goes around the component.
     fn find_faces(&mut self) {
         let component_of = components(&self.edges);
-        let mut outside: BTreeMap<Point, (Vec<Directed>, Fraction)> = BTreeMap::new();
-        let mut faces: Vec<(Vec<Directed>, Fraction)> = Vec::new();
-        for cycle in cycles(&self.edges) {
-            let twice: Fraction = cycle.iter().map(|e| cross(e[0], e[1])).sum();
-            if twice > Fraction::ZERO {
-                faces.push((cycle, twice.half()));
-            } else {
-                let before = outside.insert(component_of[&cycle[0][0]], (cycle, twice.half()));
-                assert_eq!(before, None, "a component has one outside");
-            }
-        }
+        let (outside, around): (Vec<Vec<Directed>>, Vec<Vec<Directed>>) =
+            cycles(&self.edges).into_iter().partition(|cycle| is_outside(cycle));
         self.n_components = outside.len();
-        self.n_loops = faces.len();
-        let mut sets: Vec<(BTreeSet<Directed>, Fraction)> =
-            faces.iter().map(|(cycle, area)| (cycle.iter().copied().collect(), *area)).collect();
-        for (component, (cycle, area)) in outside {
-            let around = (0..faces.len())
+        self.n_loops = around.len();
+        let mut sets: Vec<(BTreeSet<Directed>, f64)> =
+            around.iter().map(|cycle| (cycle.iter().copied().collect(), area(cycle))).collect();
+        let areas: Vec<f64> = sets.iter().map(|s| s.1).collect();
+        for cycle in outside {
+            let p = cycle[0][0];
+            let least = (0..around.len())
                 .filter(|&f| {
-                    component_of[&faces[f].0[0][0]] != component && winding(&faces[f].0, component) != 0
+                    component_of[&around[f][0][0]] != component_of[&p] && winding(&around[f], p) != 0
                 })
-                .min_by_key(|&f| faces[f].1);
-            match around {
+                .min_by(|&f, &g| areas[f].total_cmp(&areas[g]));
+            match least {
                 None => self.exterior.extend(cycle),
                 Some(f) => {
                     self.n_loops += 1;
-                    sets[f].1 = sets[f].1 + area;
+                    sets[f].1 += area(&cycle);
                     sets[f].0.extend(cycle);
                 }
             }
@@ -133,6 +126,22 @@ impl Oracle {
         assert_ne!(turn(a, b, far), -1, "the normal points to the left");
         plus(middle, times(normal, t.unwrap_or(1.into()).half()))
     }
+}
+
+/// Signed area, rounded; negative for what goes around a component.
+fn area(cycle: &[Directed]) -> f64 {
+    let o = cycle[0][0];
+    cycle.iter().map(|&[p, q]| cross(minus(p, o), minus(q, o)).value()).sum::<f64>() / 2.0
+}
+
+/// Whether the direction to the left of the cycle's first vertex (by x, then y) is on its left-hand side: there
+/// all edges lead to the right, or straight up.
+fn is_outside(cycle: &[Directed]) -> bool {
+    let first = cycle.iter().map(|e| e[0]).min().expect("cycles have edges");
+    let corners = (0..cycle.len()).map(|i| (cycle[i], cycle[(i + 1) % cycle.len()]));
+    corners
+        .filter(|(from, _)| from[1] == first)
+        .any(|([before, at], [_, after])| turn(at, after, before) <= 0)
 }
 
 /// How often directed edges go around a point that is on none of them.

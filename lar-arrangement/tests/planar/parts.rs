@@ -124,7 +124,7 @@ fn check_within(segments: &[Segment], regions: &[Vec<[i64; 2]>], sigma: &[Vec<[i
 #[test]
 fn random_drawings_within_random_polygons() {
     let random = &mut Random(9);
-    for _ in 0..1200 {
+    for _ in 0..600 {
         let mut segments = inputs::segments(random);
         segments.truncate(8);
         let mut cycle = |n: usize| -> Vec<[i64; 2]> {

@@ -115,3 +115,37 @@ fn threads_do_not_change_the_bytes() {
         assert!([2, 7].into_iter().all(|threads| json(threads, dangling) == one));
     }
 }
+
+#[track_caller]
+fn check_refused(drawing: &Drawing, message: &str) {
+    let refused = PlanarArranger::new().arrange(drawing).expect_err(message);
+    assert_eq!(refused.to_string(), message);
+}
+
+#[test]
+fn malformed_drawings_are_refused() {
+    let mut far = Drawing::from_segments(&[[0.0, 0.0, 1.0, 1.0]]);
+    far.push_segment([1, 2]);
+    check_refused(&far, "segment 1 names point v2, but there are 2 points");
+    for (x, name) in [(f64::NAN, "NaN"), (f64::INFINITY, "inf"), (f64::NEG_INFINITY, "-inf")] {
+        let drawing = Drawing::from_segments(&[[0.0, 0.0, 1.0, x]]);
+        check_refused(&drawing, &format!("drawing: vertex v1 has the coordinate {name}"));
+    }
+    for dim in [0, 1, 3] {
+        let mut drawing = Drawing::new(Points::new(dim));
+        drawing.push_polygon("A", &[vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], Vec::new()]);
+        let message = format!("points of {dim} coordinates, a planar arrangement needs 2");
+        check_refused(&drawing, &message);
+        let within = PlanarArranger::new().arrange_within(&drawing, &[Vec::new()]);
+        assert_eq!(within.expect_err("not planar").to_string(), message);
+    }
+}
+
+#[test]
+fn polygons_without_an_inside_bound_nothing() {
+    let mut drawing = Drawing::new(Points::new(2));
+    drawing.push_polygon("A", &[vec![[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]], vec![[5.0, 5.0]], Vec::new()]);
+    drawing.push_polygon("B", &[]);
+    let a = check(&drawing, [0; 5], Vec::new());
+    check_boolean(&a, "A | B", 0.0);
+}
