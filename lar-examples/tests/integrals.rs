@@ -53,9 +53,9 @@ fn moments_of_integer_boxes() {
         }
     }
     let mut sums = std::collections::BTreeMap::<Vec<bool>, f64>::new();
-    for cell in 1..a.n_cells() {
-        let inside = (0..3).map(|solid| a.winding(CellId(cell as u32), solid) != 0).collect();
-        *sums.entry(inside).or_default() += found[cell];
+    for (cell, integral) in (0..).map(CellId).zip(&found).skip(1) {
+        let inside = (0..3).map(|solid| a.winding(cell, solid) != 0).collect();
+        *sums.entry(inside).or_default() += integral;
     }
     assert_eq!(sums.keys().collect::<Vec<_>>(), expected.keys().collect::<Vec<_>>());
     for (inside, expected) in expected {
