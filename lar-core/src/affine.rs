@@ -170,6 +170,12 @@ impl Affine {
     ///
     /// # Errors
     /// When the points are not of the map's space.
+    ///
+    /// ```
+    /// use lar_core::{Points, t};
+    /// let moved = t(&[1., 2.]).apply(&Points::from_columns(2, vec![0., 0., 3., 0.])).unwrap();
+    /// assert_eq!(moved.coords(), [1., 2., 4., 2.]);
+    /// ```
     pub fn apply(&self, points: &Points) -> Result<Points, AffineError> {
         self.check_dim(points.dim())?;
         let coords = points.iter().flat_map(|p| self.image(p)).collect();

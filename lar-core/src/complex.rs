@@ -6,6 +6,13 @@ use sprs::CsMatI;
 /// A boundary or coboundary operator: a sparse matrix with entries −1, 0, +1, in compressed columns for
 /// boundaries (column = the boundary of one cell) and compressed rows for their transposes. The matrix type
 /// keeps the indices of a column distinct and in range; the entries are checked by [`ChainComplex::validate`].
+///
+/// ```
+/// use lar_core::{ChainComplex, Operator, cuboid_grid};
+/// let square = ChainComplex::from_model(&cuboid_grid(&[1, 1])).unwrap();
+/// let boundary: &Operator = square.boundary(2);
+/// assert_eq!((boundary.shape(), boundary.nnz()), ((4, 1), 4));
+/// ```
 #[doc(alias = "ChainOp")]
 pub type Operator = CsMatI<i8, u32>;
 

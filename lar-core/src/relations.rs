@@ -77,6 +77,13 @@ impl Incidence {
     }
 
     /// The whole relation: [`batch`](Self::batch) with each p-cell alone.
+    ///
+    /// ```
+    /// use lar_core::{ChainComplex, cuboid_grid};
+    /// let cube = ChainComplex::from_model(&cuboid_grid(&[1, 1, 1])).unwrap();
+    /// let ff = cube.incidence().relation(2, 2);
+    /// assert_eq!(&ff[0], [2, 3, 4, 5]); // all but the opposite face
+    /// ```
     #[doc(alias("VV", "VE", "VF", "EV", "EE", "EF", "FV", "FE", "FF"))]
     #[must_use]
     pub fn relation(&self, p: usize, q: usize) -> Cells {

@@ -180,6 +180,14 @@ impl Struct {
     ///
     /// # Errors
     /// When a matrix is singular or not finite, or nodes are of different spaces.
+    ///
+    /// ```
+    /// use lar_core::{Struct, cuboid_grid, s, t};
+    /// let cube = cuboid_grid(&[1, 1, 1]);
+    /// let scene = Struct::new("scene").with(t(&[1., 0., 0.])).with(cube.clone()).with(s(&[2.; 3])).with(cube);
+    /// let instances = scene.traversal().unwrap();
+    /// assert_eq!(instances[0].world_from_local, t(&[1., 0., 0.]));
+    /// ```
     pub fn traversal(&self) -> Result<Vec<Instance>, StructError> {
         let mut found = Vec::new();
         self.visit(|visit| {
@@ -223,6 +231,14 @@ impl Struct {
     ///
     /// # Errors
     /// As [`traversal`](Self::traversal).
+    ///
+    /// ```
+    /// use lar_core::{Struct, cuboid_grid, s, t};
+    /// let cube = cuboid_grid(&[1, 1, 1]);
+    /// let scene = Struct::new("scene").with(t(&[1., 0., 0.])).with(cube.clone()).with(s(&[2.; 3])).with(cube);
+    /// let placed = scene.eval_struct().unwrap();
+    /// assert_eq!(placed[1].model.points().point(7), [3., 2., 2.]);
+    /// ```
     #[doc(alias = "evalStruct")]
     pub fn eval_struct(&self) -> Result<Vec<PlacedModel>, StructError> {
         let place = |instance: Instance| match instance.model.transformed(&instance.world_from_local) {
@@ -238,6 +254,13 @@ impl Struct {
     ///
     /// # Errors
     /// As [`traversal`](Self::traversal), and when `u32` cannot number the result.
+    ///
+    /// ```
+    /// use lar_core::{Struct, cuboid_grid, s, t};
+    /// let cube = cuboid_grid(&[1, 1, 1]);
+    /// let scene = Struct::new("scene").with(t(&[1., 0., 0.])).with(cube.clone()).with(s(&[2.; 3])).with(cube);
+    /// assert_eq!(scene.struct2lar().unwrap().f_vector(), [16, 24, 12, 2]);
+    /// ```
     pub fn struct2lar(&self) -> Result<Model, StructError> {
         let placed = self.eval_struct()?;
         let dim = placed.first().map_or(0, |p| p.model.points().dim());

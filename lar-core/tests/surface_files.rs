@@ -1,8 +1,8 @@
 //! Surface files: round trips in every format, forms of the formats, refusals, hostile bytes.
 
 use lar_core::{
-    Cells, MeshFormat, Place, Points, PolygonMesh, Precision, Surface, TriangleMesh, Weld, cuboid_grid,
-    icosphere, parse_surface, r, read_surface, write_mesh,
+    Cells, MeshFormat, Place, Points, PolygonMesh, Precision, Surface, SurfaceViolation, TriangleMesh, Weld,
+    cuboid_grid, icosphere, parse_surface, r, read_surface, write_mesh,
 };
 use proptest::prelude::*;
 use std::path::PathBuf;
@@ -325,7 +325,14 @@ proptest! {
         prop_assert!(text || read.is_err());
         if let Ok(read) = read {
             prop_assert!(read.surface.n_faces() <= 80);
-            prop_assert_eq!(read.surface.validate(), []);
+            // The last number of a text may have lost digits: its face may then name one vertex twice.
+            let last = read.surface.n_faces().saturating_sub(1);
+            let is_cut = |v: &SurfaceViolation| {
+                matches!(v, SurfaceViolation::ShortLoop { face, .. } | SurfaceViolation::RepeatedVertex { face, .. }
+                    if face.index() == last)
+            };
+            let violations = read.surface.validate();
+            prop_assert!(violations.iter().all(is_cut), "{violations:?}");
         }
     }
 

@@ -45,7 +45,9 @@ impl Bits for f64 {
 }
 
 const EMPTY: u32 = u32::MAX;
-const BLOCK: usize = 1 << 16;
+/// Points a block: with 12 bytes each above 32 MiB, from where on the usual allocators give freed memory back to the
+/// system at once.
+const BLOCK: usize = 1 << 22;
 
 /// Numbers points in the order in which they are first seen. −0 must have been made 0 before.
 pub(crate) struct Welder<T, const D: usize> {
@@ -81,7 +83,7 @@ impl<T: Bits, const D: usize> Welder<T, D> {
     pub(crate) fn into_points(self) -> Points {
         let Self { mut blocks, n, slots } = self;
         drop(slots);
-        // From the last block to the first: memory freed at the end of the heap goes back to the system.
+        // Zeroed memory is not there until it is written, and each block goes as its part is written.
         let mut coords = vec![0.; n as usize * D];
         while let Some(block) = blocks.pop() {
             let to = coords[blocks.len() * BLOCK * D..].iter_mut();
