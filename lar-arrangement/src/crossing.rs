@@ -149,38 +149,31 @@ fn is_on_one_side(geometry: &Geometry, corners: [u32; 3], others: [u32; 3], othe
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Position {
-    /// Nothing in common but shared corners and a shared edge.
+    /// All corners on one side.
     Apart,
     Coplanar,
     /// The facet reaches the other's plane.
     Across,
 }
 
-/// Signs of f's corners (tails of its directed edges) against the plane of g.
+/// Signs of f's corners (tails of its directed edges) against the plane of g. Triangles that have only shared corners
+/// on it do not come here.
 fn classify(soup: &Soup, f: u32, g: u32, signs: &mut Vec<Sign>) -> Position {
     signs.clear();
     let edges = &soup.facet_edges[f as usize];
     let mut any = [false; 3];
-    let mut shared = 0;
     for &edge in edges {
         let [p, _] = soup.directed(edge);
         let is_shared = soup.geometry.is_base_corner(g, p);
         let sign = if is_shared { Sign::Zero } else { soup.geometry.side_of_point(p, g) };
-        shared += u32::from(is_shared);
         any[(sign as i8 + 1) as usize] = true;
         signs.push(sign);
     }
-    let [negative, zero, positive] = any;
-    if !negative && !positive {
-        return Position::Coplanar;
+    match any {
+        [false, _, false] => Position::Coplanar,
+        [true, false, false] | [false, false, true] => Position::Apart,
+        _ => Position::Across,
     }
-    if negative && positive {
-        return Position::Across;
-    }
-    let zeros = signs.iter().filter(|&&s| s == Sign::Zero).count() as u32;
-    // Corners on the plane that are corners of a triangle g: one is a corner in common, two an edge in common.
-    let only_shared = edges.len() == 3 && zeros == shared && soup.facet_edges[g as usize].len() == 3;
-    if zero && !only_shared { Position::Across } else { Position::Apart }
 }
 
 /// The stops of facet f on the plane of g, sorted along `axis`.
