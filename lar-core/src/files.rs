@@ -1,4 +1,4 @@
-//! Surface files: STL, PLY, OFF and OBJ in and out, glTF out.
+//! Surface files: STL, PLY, OFF and OBJ in and out, glTF out. Segments of the plane: text, in.
 //!
 //! One entry each way: [`read_surface`] tells the format by content and extension, [`write_mesh`] by extension.
 //! Readers run through the file once, in pieces; what they keep grows with what they have read, never with
@@ -14,6 +14,7 @@ mod off;
 mod ply;
 mod polygons;
 mod precision;
+mod seg;
 mod source;
 mod stl;
 mod weld;
@@ -23,6 +24,7 @@ pub use format::{MeshFormat, SurfaceFile, parse_surface, read_surface, write_mes
 pub use gltf::{GltfNode, to_glb, to_gltf, write_gltf};
 pub use polygons::PolygonMesh;
 pub use precision::Precision;
+pub use seg::{parse_segments, read_segments};
 #[cfg(feature = "svg")]
 pub(crate) use source::clip;
 pub use weld::Weld;

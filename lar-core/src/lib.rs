@@ -81,7 +81,7 @@ pub use chain::{Chain, ChainError};
 pub use complex::{ChainComplex, Operator};
 pub use files::{
     GltfNode, MeshFileError, MeshFormat, Place, PolygonMesh, Precision, Problem, SurfaceFile, Weld,
-    parse_surface, read_surface, to_glb, to_gltf, write_gltf, write_mesh,
+    parse_segments, parse_surface, read_segments, read_surface, to_glb, to_gltf, write_gltf, write_mesh,
 };
 pub use generators::{icosphere, simplex, triangular_prism};
 pub use graph::{Biconnected, DepthFirst, Graph, GraphError};
@@ -110,7 +110,7 @@ pub use simplicial::{
 pub use structure::{Corners, Instance, Node, PlacedModel, Struct, StructError, Visit};
 pub use surface::Surface;
 pub use surface_check::{BoundaryEdge, SurfaceViolation};
-pub use svg::{Drawing, Polyline, SvgError};
+pub use svg::{Drawing, Polyline, SvgError, SvgStyle, SvgWriter};
 #[cfg(feature = "svg")]
 pub use svg::{parse_svg, read_svg};
 pub use topology::{CellComponents, Components};

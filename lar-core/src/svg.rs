@@ -8,6 +8,7 @@
 mod drawing;
 mod error;
 mod write;
+mod writer;
 
 #[cfg(feature = "svg")]
 mod pen;
@@ -20,3 +21,4 @@ pub use drawing::{Drawing, Polyline};
 pub use error::SvgError;
 #[cfg(feature = "svg")]
 pub use read::{parse_svg, read_svg};
+pub use writer::{SvgStyle, SvgWriter};

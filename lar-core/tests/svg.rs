@@ -101,6 +101,17 @@ fn names() {
     assert_eq!(named, [(Some("g"), 0), (Some("p"), 1), (Some("p"), 1), (None, 2)]);
 }
 
+#[test]
+fn fill_rules() {
+    let drawing = drawing(
+        "<g fill-rule='evenodd'><line x2='1'/><line x2='1' fill-rule='nonzero'/><rect width='1' height='1' \
+         style='fill:red; fill-rule : nonzero' fill-rule='evenodd'/><g style='fill-rule:evenodd'><line y2='2'/>\
+         </g></g><line x2='1' fill-rule='inherit'/>",
+    );
+    let found: Vec<bool> = drawing.polylines.iter().map(|p| p.even_odd).collect();
+    assert_eq!(found, [true, false, false, true, false]);
+}
+
 /// All points of the polyline and all middles of its chords lie within `tolerance` of the curve f = 0, where
 /// |f| is a distance.
 #[track_caller]

@@ -1,4 +1,4 @@
-//! What can be wrong with a surface file, and where.
+//! What can be wrong with a file of surfaces or segments, and where.
 
 use crate::{FileError, ObjError, VertexId};
 use std::fmt;
@@ -57,6 +57,16 @@ pub enum Problem {
         /// The coordinate.
         value: String,
     },
+    /// A line holds another number of numbers than it should.
+    #[error("{found} numbers where the {needed} of {what} are needed")]
+    NumberCount {
+        /// How many stand there.
+        found: usize,
+        /// How many are needed.
+        needed: usize,
+        /// What they make.
+        what: &'static str,
+    },
     /// The number of items announced does not fit the length of the file.
     #[error("{announced} {what} are announced, which takes {needed} bytes, but the file has {found}")]
     Length {
@@ -91,7 +101,7 @@ pub enum Problem {
     TooLarge,
 }
 
-/// Why a surface file cannot be read or written.
+/// Why a file of surfaces or segments cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeshFileError {

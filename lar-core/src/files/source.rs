@@ -25,11 +25,17 @@ impl At<'_> {
     /// A finite coordinate; its digits are noted.
     pub(crate) fn coordinate(self, word: Option<&str>, digits: &mut Digits) -> Result<f64, MeshFileError> {
         let word = word.unwrap_or("");
+        let x = self.number(word)?;
+        digits.note(word);
+        Ok(x)
+    }
+
+    /// A finite coordinate.
+    pub(crate) fn number(self, word: &str) -> Result<f64, MeshFileError> {
         let x: f64 = word.parse().map_err(|_| self.expected("a coordinate", word))?;
         if !x.is_finite() {
             return Err(self.error(Problem::NonFinite { value: clip(word) }));
         }
-        digits.note(word);
         // Minus zero is where zero is: equal points have equal coordinates.
         Ok(x + 0.)
     }

@@ -10,6 +10,8 @@ pub struct Polyline {
     pub id: Option<String>,
     /// Which shape of the drawing it belongs to, from 0 in document order: the subpaths of a shape share it.
     pub shape: usize,
+    /// True when the shape's `fill-rule` is `evenodd`; SVG's own default is `nonzero`.
+    pub even_odd: bool,
     /// 2 × n; the first point is not repeated at the end of a closed one.
     pub points: Points,
     /// True when the last point is joined to the first: a polygon.
@@ -33,7 +35,7 @@ impl Drawing {
     /// ```
     /// use lar_core::{Drawing, Points, Polyline};
     /// let points = Points::from_columns(2, vec![0., 0., 1., 0., 1., 1.]);
-    /// let triangle = Polyline { id: None, shape: 0, points, closed: true };
+    /// let triangle = Polyline { id: None, shape: 0, even_odd: false, points, closed: true };
     /// let model = Drawing { polylines: vec![triangle] }.to_model();
     /// assert_eq!(model.f_vector(), [3, 3]);
     /// ```

@@ -63,6 +63,7 @@ pub(super) struct Pen {
     pub(super) map: Map,
     pub(super) id: Option<String>,
     pub(super) shape: usize,
+    pub(super) even_odd: bool,
     pub(super) drawing: Drawing,
     tolerance: f64,
     /// Points that may still be made.
@@ -73,7 +74,7 @@ pub(super) struct Pen {
 impl Pen {
     pub(super) fn new(tolerance: f64, budget: usize) -> Self {
         let (map, drawing, current) = (Map::UPRIGHT, Drawing::default(), Vec::new());
-        Self { map, id: None, shape: 0, drawing, tolerance, budget, current }
+        Self { map, id: None, shape: 0, even_odd: false, drawing, tolerance, budget, current }
     }
 
     /// Ends the polyline before, open, and starts another.
@@ -134,7 +135,8 @@ impl Pen {
         }
         if coords.len() > 2 {
             let points = Points::from_columns(2, coords);
-            self.drawing.polylines.push(Polyline { id: self.id.clone(), shape: self.shape, points, closed });
+            let (id, shape, even_odd) = (self.id.clone(), self.shape, self.even_odd);
+            self.drawing.polylines.push(Polyline { id, shape, even_odd, points, closed });
         }
     }
 

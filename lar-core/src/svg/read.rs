@@ -2,7 +2,8 @@
 //!
 //! The document is walked with an explicit stack. `g`, `a`, `svg` and `switch` pass their transforms on, `use`
 //! draws what it names, and what only serves other elements (`defs`, `symbol`, `clipPath`, …), text and
-//! images are passed over. Elements with `display: none` are not drawn. Style says nothing else about shape.
+//! images are passed over. Elements with `display: none` are not drawn. Of style only this and the fill rule say
+//! anything about shape; style sheets are not read.
 
 use super::pen::{Map, Pen, Stop};
 use super::shapes::{self, Fault};
@@ -101,6 +102,7 @@ struct Visit<'a, 'i> {
     node: Node<'a, 'i>,
     map: Map,
     id: Option<&'a str>,
+    even_odd: bool,
     /// How many `use` elements led here.
     uses: usize,
 }
@@ -118,7 +120,8 @@ struct Walk<'a, 'i> {
 
 impl<'a, 'i> Walk<'a, 'i> {
     fn run(&mut self) -> Result<(), SvgError> {
-        let mut stack = vec![Visit { node: self.root, map: Map::UPRIGHT, id: None, uses: 0 }];
+        let mut stack =
+            vec![Visit { node: self.root, map: Map::UPRIGHT, id: None, even_odd: false, uses: 0 }];
         while let Some(visit) = stack.pop() {
             self.visits = match self.visits.checked_sub(1) {
                 Some(left) => left,
@@ -132,20 +135,26 @@ impl<'a, 'i> Walk<'a, 'i> {
     }
 
     fn visit(&mut self, visit: Visit<'a, 'i>, stack: &mut Vec<Visit<'a, 'i>>) -> Result<(), SvgError> {
-        let Visit { node, map, id, uses } = visit;
+        let Visit { node, map, id, even_odd, uses } = visit;
         let id = node.attribute("id").or(id);
+        let even_odd = match property(node, "fill-rule") {
+            Some("evenodd") => true,
+            Some("nonzero") => false,
+            _ => even_odd,
+        };
         let local = shapes::transform(node).map_err(|fault| self.fault(node, fault))?;
         let map = map.after(&local);
         match node.tag_name().name() {
-            "g" | "a" | "switch" => push_children(stack, &Visit { node, map, id, uses }),
+            "g" | "a" | "switch" => push_children(stack, &Visit { node, map, id, even_odd, uses }),
             "svg" => {
                 let map = map.after(&self.nested(node)?);
-                push_children(stack, &Visit { node, map, id, uses });
+                push_children(stack, &Visit { node, map, id, even_odd, uses });
             }
-            "use" => self.reference(Visit { node, map, id, uses }, stack)?,
+            "use" => self.reference(Visit { node, map, id, even_odd, uses }, stack)?,
             name => {
                 self.pen.map = map;
                 self.pen.id = id.map(str::to_owned);
+                self.pen.even_odd = even_odd;
                 let before = self.pen.drawing.polylines.len();
                 shapes::draw(&mut self.pen, node, name).map_err(|fault| self.fault(node, fault))?;
                 self.pen.shape += usize::from(self.pen.drawing.polylines.len() > before);
@@ -168,7 +177,7 @@ impl<'a, 'i> Walk<'a, 'i> {
 
     fn reference(&self, visit: Visit<'a, 'i>, stack: &mut Vec<Visit<'a, 'i>>) -> Result<(), SvgError> {
         const DEEPEST: usize = 32;
-        let Visit { node, map, id, uses } = visit;
+        let Visit { node, map, id, even_odd, uses } = visit;
         let href =
             node.attribute("href").or_else(|| node.attribute(("http://www.w3.org/1999/xlink", "href")));
         let href = href.unwrap_or("");
@@ -184,9 +193,9 @@ impl<'a, 'i> Walk<'a, 'i> {
             if let Some(found) = target.attribute("viewBox") {
                 return Err(self.unsupported(target, "viewBox of a nested element", found));
             }
-            push_children(stack, &Visit { node: target, map, id, uses });
+            push_children(stack, &Visit { node: target, map, id, even_odd, uses });
         } else {
-            stack.push(Visit { node: target, map, id, uses });
+            stack.push(Visit { node: target, map, id, even_odd, uses });
         }
         Ok(())
     }
@@ -220,15 +229,19 @@ impl<'a, 'i> Walk<'a, 'i> {
 }
 
 fn push_children<'a, 'i>(stack: &mut Vec<Visit<'a, 'i>>, parent: &Visit<'a, 'i>) {
-    let &Visit { node, map, id, uses } = parent;
-    stack.extend(node.children().rev().map(|node| Visit { node, map, id, uses }));
+    stack.extend(parent.node.children().rev().map(|node| Visit { node, ..*parent }));
 }
 
 fn hidden(node: Node<'_, '_>) -> bool {
+    property(node, "display") == Some("none")
+}
+
+/// The value that an element gives to a property: in its `style`, or else in the attribute of this name.
+fn property<'a>(node: Node<'a, '_>, property: &str) -> Option<&'a str> {
     let style = node.attribute("style").unwrap_or("");
     let mut declared = style.split(';').filter_map(|declaration| declaration.split_once(':'));
-    let styled = declared.rfind(|(name, _)| name.trim() == "display");
-    styled.map(|(_, value)| value.trim()).or(node.attribute("display")) == Some("none")
+    let styled = declared.rfind(|(name, _)| name.trim() == property);
+    styled.map(|(_, value)| value).or(node.attribute(property)).map(str::trim)
 }
 
 /// A length in user units; `None` when the attribute is absent or `auto`.

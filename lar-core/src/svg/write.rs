@@ -1,10 +1,8 @@
 //! Writing complexes of the plane as SVG.
 
-use super::SvgError;
+use super::{SvgError, SvgStyle, SvgWriter};
 use crate::measure::loop_area_2d;
-use crate::obj::write_number;
 use crate::{ChainComplex, atomic_write};
-use std::io::{self, Write};
 use std::path::Path;
 
 impl ChainComplex {
@@ -44,74 +42,42 @@ impl ChainComplex {
         if !violations.is_empty() {
             return Err(SvgError::Invalid(violations));
         }
-        let mut bytes = Vec::new();
-        write_document(self, &mut bytes).expect("writing to memory does not fail");
-        Ok(String::from_utf8(bytes).expect("numbers and letters are UTF-8"))
+        let [lo, hi] = view_box(self);
+        let mut svg = SvgWriter::new(lo, hi);
+        if dim == 2 {
+            (0..self.n_cells(2)).for_each(|f| push_face(self, f, &mut svg));
+        }
+        let width = (hi[0] - lo[0]).max(hi[1] - lo[1]) / 400.;
+        let style = SvgStyle { id: "edges", fill: None, stroke: Some(("#222", width)) };
+        let edges = (0..self.n_cells(1)).filter_map(|e| self.edge_ends(e));
+        svg.path(&style, edges.map(|ends| (run(self, &ends), false)));
+        Ok(svg.finish())
     }
 }
 
-fn write_document(complex: &ChainComplex, out: &mut dyn Write) -> io::Result<()> {
-    let (x, y, w, h) = view_box(complex);
-    out.write_all(b"<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"")?;
-    for (number, after) in [(x, b" "), (y, b" "), (w, b" "), (h, b"\"")] {
-        write_number(out, number)?;
-        out.write_all(after)?;
-    }
-    out.write_all(b" fill-rule=\"evenodd\">\n")?;
-    if complex.dim() == 2 {
-        (0..complex.n_cells(2)).try_for_each(|f| write_face(complex, f, out))?;
-    }
-    write_edges(complex, w.max(h), out)?;
-    out.write_all(b"</svg>\n")
-}
-
-/// The box of the points with a margin of 2 %, y downwards; 1 × 1 where there is no extent.
-fn view_box(complex: &ChainComplex) -> (f64, f64, f64, f64) {
+/// The box of the points with a margin of 2 %; 1 × 1 where there is no extent.
+fn view_box(complex: &ChainComplex) -> [[f64; 2]; 2] {
     let (lo, hi) = complex.points().bounds().unwrap_or((vec![0.; 2], vec![0.; 2]));
     let size = (hi[0] - lo[0]).max(hi[1] - lo[1]);
     let margin = if size > 0. { size / 50. } else { 0.5 };
-    let extent = |k: usize| hi[k] - lo[k] + 2. * margin;
-    (lo[0] - margin, -hi[1] - margin, extent(0), extent(1))
+    [[lo[0] - margin, lo[1] - margin], [hi[0] + margin, hi[1] + margin]]
 }
 
 /// A face of negative area is the exterior: it is not drawn.
-fn write_face(complex: &ChainComplex, f: usize, out: &mut dyn Write) -> io::Result<()> {
+fn push_face(complex: &ChainComplex, f: usize, svg: &mut SvgWriter) {
     /// Hues a golden angle apart: any few in a row differ.
     const GOLDEN_ANGLE: f64 = 137.50776405003785;
     let loops = complex.face_loops(f);
     let area: f64 = loops.iter().map(|cycle| loop_area_2d(complex.points(), cycle)).sum();
-    if area < 0. {
-        return Ok(());
+    if area >= 0. {
+        let (id, hue) = (format!("f{f}"), (f as f64 * GOLDEN_ANGLE % 360.) as u32);
+        let fill = format!("hsl({hue} 65% 72%)");
+        let style = SvgStyle { id: &id, fill: Some(&fill), stroke: None };
+        svg.path(&style, loops.iter().map(|cycle| (run(complex, cycle), true)));
     }
-    let hue = (f as f64 * GOLDEN_ANGLE % 360.) as u32;
-    write!(out, "<path id=\"f{f}\" fill=\"hsl({hue} 65% 72%)\" d=\"")?;
-    for cycle in &loops {
-        write_run(complex, cycle, out)?;
-        out.write_all(b"Z")?;
-    }
-    out.write_all(b"\"/>\n")
 }
 
-fn write_edges(complex: &ChainComplex, size: f64, out: &mut dyn Write) -> io::Result<()> {
-    out.write_all(
-        b"<path id=\"edges\" fill=\"none\" stroke=\"#222\" stroke-linecap=\"round\" stroke-width=\"",
-    )?;
-    write_number(out, size / 400.)?;
-    out.write_all(b"\" d=\"")?;
-    for ends in (0..complex.n_cells(1)).filter_map(|e| complex.edge_ends(e)) {
-        write_run(complex, &ends, out)?;
-    }
-    out.write_all(b"\"/>\n")
-}
-
-fn write_run(complex: &ChainComplex, vertices: &[u32], out: &mut dyn Write) -> io::Result<()> {
-    for (i, &v) in vertices.iter().enumerate() {
-        let p = complex.points().point(v as usize);
-        out.write_all(if i == 0 { b"M" } else { b"L" })?;
-        // Adding zero makes minus zero plain.
-        write_number(out, p[0] + 0.)?;
-        out.write_all(b" ")?;
-        write_number(out, 0. - p[1])?;
-    }
-    Ok(())
+fn run(complex: &ChainComplex, vertices: &[u32]) -> Vec<[f64; 2]> {
+    let at = |&v: &u32| [0, 1].map(|k| complex.points().point(v as usize)[k]);
+    vertices.iter().map(at).collect()
 }
