@@ -1,6 +1,8 @@
 //! Boolean expressions over named solids: `!` complement binds tightest, then `&` intersection, `-` difference,
 //! `^` symmetric difference, `|` union; parentheses. Operators of two arguments group from the left.
 //!
+//! Names made of letters, digits, `_` and `.` stand as they are, all others between quotes, 'like-this' or "like this".
+//!
 //! An expression is kept as a program for a stack machine: any depth of nesting, no recursion.
 
 /// One step of the program.
@@ -61,14 +63,14 @@ pub struct Expression {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExpressionError {
-    /// A name that stands for no solid.
-    #[error("expression, position {position}: unknown solid \"{name}\", known are {known}")]
+    /// A name that stands for no operand.
+    #[error("expression, position {position}: unknown operand \"{name}\", known are {known}")]
     UnknownName {
         /// Where it stands.
         position: usize,
         /// The name.
         name: String,
-        /// The names there are.
+        /// The names there are, the first few of many.
         known: String,
     },
     /// A character that has no meaning, or has none at its place.
@@ -113,8 +115,15 @@ pub fn operand_names(n: usize) -> Vec<String> {
 }
 
 impl Expression {
-    /// Parses a text; `names[i]` is the name of solid i. Names are made of letters, digits, `_` and `.`, and do
-    /// not begin with a digit.
+    /// Parses a text; `names[i]` is the name of solid i. Names that are made of other than letters, digits, `_` and
+    /// `.`, or begin with none of these but a letter or `_`, stand between quotes of either kind.
+    ///
+    /// ```
+    /// use lar_arrangement::Expression;
+    /// let expression = Expression::parse("'path-1' - door", &["path-1", "door"])?;
+    /// assert_eq!(expression, Expression::parse("A - B", &["A", "B"])?);
+    /// # Ok::<(), lar_arrangement::ExpressionError>(())
+    /// ```
     ///
     /// # Errors
     /// With the position and what was expected there.
@@ -230,15 +239,25 @@ impl Parser {
 
     /// Reads complements and opening parentheses up to a name.
     fn operand(&mut self, names: &[impl AsRef<str>]) -> Result<(), ExpressionError> {
-        const EXPECTED: &str = "a solid, '!' or '('";
+        const EXPECTED: &str = "a name, '!' or '('";
         loop {
             match self.next_symbol() {
                 Some('!') => self.pending.push(Pending::Complement),
                 Some('(') => self.pending.push(Pending::Parenthesis),
                 Some(c) if c.is_alphabetic() || c == '_' => {
-                    let solid = self.name(names)?;
-                    self.program.push(Step::Operand(solid));
-                    return Ok(());
+                    let is_part = |c: &char| c.is_alphanumeric() || *c == '_' || *c == '.';
+                    let name = self.characters[self.at..].iter().take_while(|c| is_part(c)).collect();
+                    return self.named(name, 0, names);
+                }
+                Some(quote @ ('\'' | '"')) => {
+                    let name: String =
+                        self.characters[self.at + 1..].iter().take_while(|c| **c != quote).collect();
+                    let end = self.at + 1 + name.chars().count();
+                    if end == self.characters.len() {
+                        self.at = end;
+                        return Err(self.unexpected(None, "the other quote"));
+                    }
+                    return self.named(name, 1, names);
                 }
                 found => return Err(self.unexpected(found, EXPECTED)),
             }
@@ -246,19 +265,20 @@ impl Parser {
         }
     }
 
-    fn name(&mut self, names: &[impl AsRef<str>]) -> Result<u32, ExpressionError> {
-        let start = self.at;
-        let is_part = |c: &char| c.is_alphanumeric() || *c == '_' || *c == '.';
-        let name: String = self.characters[start..].iter().take_while(|c| is_part(c)).collect();
-        self.at += name.chars().count();
-        match names.iter().position(|known| known.as_ref() == name) {
-            Some(solid) => Ok(solid as u32),
-            None => Err(ExpressionError::UnknownName {
-                position: start + 1,
-                name,
-                known: names.iter().map(AsRef::as_ref).collect::<Vec<_>>().join(", "),
-            }),
-        }
+    /// Adds the operand of this name, which stands between so many quotes on each side.
+    fn named(
+        &mut self,
+        name: String,
+        n_quotes: usize,
+        names: &[impl AsRef<str>],
+    ) -> Result<(), ExpressionError> {
+        let position = self.at + 1;
+        let Some(solid) = names.iter().position(|known| known.as_ref() == name) else {
+            return Err(ExpressionError::UnknownName { position, name, known: listed(names) });
+        };
+        self.at += name.chars().count() + 2 * n_quotes;
+        self.program.push(Step::Operand(solid as u32));
+        Ok(())
     }
 
     /// Reads closing parentheses up to an operator (false) or the end (true).
@@ -324,6 +344,14 @@ impl Parser {
     }
 }
 
+/// The first few of the names, and how many more there are.
+fn listed(names: &[impl AsRef<str>]) -> String {
+    const MOST: usize = 20;
+    let shown: Vec<&str> = names.iter().take(MOST).map(AsRef::as_ref).collect();
+    let more = names.len() - shown.len();
+    shown.join(", ") + &if more > 0 { format!(" and {more} more") } else { String::new() }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -356,6 +384,7 @@ mod tests {
         assert_eq!(table("!!A"), A);
         assert_eq!(table("!(A|B)"), !(A | B));
         assert_eq!(table(" ( ( A ) ) & wheel_2 "), A & D);
+        assert_eq!(table("'A'-\"wheel_2\" ^ B"), (A & !D) ^ B);
     }
 
     #[track_caller]
@@ -366,15 +395,27 @@ mod tests {
 
     #[test]
     fn what_is_no_expression_is_refused_with_its_place() {
-        refused("", "expression, position 1: expected a solid, '!' or '(', found the end");
-        refused("A |", "expression, position 4: expected a solid, '!' or '(', found the end");
-        refused("A | & B", "expression, position 5: expected a solid, '!' or '(', found '&'");
+        refused("", "expression, position 1: expected a name, '!' or '(', found the end");
+        refused("A |", "expression, position 4: expected a name, '!' or '(', found the end");
+        refused("A | & B", "expression, position 5: expected a name, '!' or '(', found '&'");
         refused("A B", "expression, position 3: expected an operator (& - ^ |) or ')', found 'B'");
         refused("(A | B", "expression, position 7: expected ')', found the end");
         refused("A | B)", "expression, position 6: expected an operator (& - ^ |) or the end, found ')'");
         refused("A + B", "expression, position 3: expected an operator (& - ^ |) or ')', found '+'");
-        refused("A | D", "expression, position 5: unknown solid \"D\", known are A, B, C, wheel_2");
-        refused("3", "expression, position 1: expected a solid, '!' or '(', found '3'");
+        refused("A | D", "expression, position 5: unknown operand \"D\", known are A, B, C, wheel_2");
+        refused("A - 'B", "expression, position 7: expected the other quote, found the end");
+        refused("A - ''", "expression, position 5: unknown operand \"\", known are A, B, C, wheel_2");
+        refused("3", "expression, position 1: expected a name, '!' or '(', found '3'");
+    }
+
+    #[test]
+    fn of_many_names_a_few_are_listed() {
+        let error = Expression::parse("x", &operand_names(1000)).expect_err("no such name").to_string();
+        assert!(
+            error.ends_with(
+                "known are A, B, C, D, E, F, G, H, I, J, K, L, M, N, O, P, Q, R, S, T and 980 more"
+            )
+        );
     }
 
     #[test]
@@ -385,7 +426,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn no_text_panics(text in "[ABCw()!&|^ -]{0,40}|\\PC{0,40}") {
+        fn no_text_panics(text in "[ABCw()!&|^ '\"-]{0,40}|\\PC{0,40}") {
             let _ = Expression::parse(&text, &NAMES);
         }
     }

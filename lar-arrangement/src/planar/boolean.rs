@@ -80,6 +80,26 @@ impl PlanarArrangement {
         row.binary_search_by_key(&(region as u32), |e| e.0).map_or(0, |i| row[i].1)
     }
 
+    /// The regions with a winding number other than zero in a face, and these numbers, by region.
+    ///
+    /// ```
+    /// use lar_arrangement::planar::{Drawing, planar_arrangement};
+    /// let mut drawing = Drawing::new(lar_core::Points::new(2));
+    /// drawing.push_polygon("A", &[vec![[0., 0.], [0., 1.], [1., 1.]]]);
+    /// let a = planar_arrangement(&drawing)?;
+    /// assert_eq!(a.windings(lar_core::FaceId(1)).collect::<Vec<_>>(), [(0, -1)]);
+    /// # Ok::<(), lar_arrangement::ArrangementError>(())
+    /// ```
+    pub fn windings(&self, face: FaceId) -> impl ExactSizeIterator<Item = (usize, i32)> + '_ {
+        self.windings.of_cell(face.index()).iter().map(|&(region, winding)| (region as usize, winding))
+    }
+
+    /// What the outline of a region bounds.
+    #[must_use]
+    pub fn closure(&self, region: usize) -> Closure {
+        self.windings.closure[region]
+    }
+
     /// The faces where an expression over the regions holds. Face 0 is the exterior.
     ///
     /// # Errors
@@ -122,16 +142,21 @@ impl PlanarArrangement {
     /// As [`faces_where`](Self::faces_where).
     #[doc(alias = "bool2d")]
     pub fn boolean(&self, expression: &Expression, rule: FillRule) -> Result<Polygons, BooleanError> {
-        let faces: Vec<FaceId> =
-            self.faces_where(expression, rule)?.into_iter().filter(|face| face.0 != 0).collect();
-        Ok(self.joined(&faces))
+        Ok(self.polygons_of(&self.faces_where(expression, rule)?))
     }
 
-    fn joined(&self, faces: &[FaceId]) -> Polygons {
+    /// The union of some faces as polygons with holes: faces side by side become one, straight edges are in one
+    /// piece. The exterior is left out.
+    ///
+    /// # Panics
+    /// When there is no such face.
+    #[must_use]
+    pub fn polygons_of(&self, faces: &[FaceId]) -> Polygons {
+        let faces: Vec<FaceId> = faces.iter().copied().filter(|face| face.0 != 0).collect();
         let mut number = vec![u32::MAX; self.n_faces() + 1];
         faces.iter().zip(0..).for_each(|(face, i)| number[face.index()] = i);
         let (mut loops, mut face_loops) = (lar_core::Cells::new(), vec![0]);
-        for &face in faces {
+        for &face in &faces {
             self.loops_of(face).for_each(|cycle| loops.push(cycle));
             face_loops.push(loops.len() as u32);
         }

@@ -82,6 +82,18 @@ impl Drawing {
         region as usize
     }
 
+    /// Adds a segment to the outline of a region. Whether segments added in this way close it is found when the
+    /// drawing is arranged with [`Dangling::Keep`](super::Dangling::Keep); without their dangling edges outlines may
+    /// look closed.
+    ///
+    /// # Panics
+    /// When there is no such region.
+    pub fn push_region_segment(&mut self, region: usize, ends: [u32; 2]) {
+        assert!(region < self.regions.len(), "region {region} of {}", self.regions.len());
+        self.segments.push(ends);
+        self.region_of.push(region as u32);
+    }
+
     /// Adds a region whose loops are lists of coordinates.
     pub fn push_polygon(&mut self, name: impl Into<String>, loops: &[Vec<[f64; 2]>]) -> usize {
         let mut cells = Cells::new();
