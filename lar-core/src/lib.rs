@@ -110,7 +110,7 @@ pub use simplicial::{
 pub use structure::{Corners, Instance, Node, PlacedModel, Struct, StructError, Visit};
 pub use surface::Surface;
 pub use surface_check::{BoundaryEdge, SurfaceViolation};
-pub use svg::{Drawing, Polyline, SvgError, SvgStyle, SvgWriter};
+pub use svg::{Drawing, NamedShapes, Polyline, SvgError, SvgStyle, SvgWriter};
 #[cfg(feature = "svg")]
 pub use svg::{parse_svg, read_svg};
 pub use topology::{CellComponents, Components};

@@ -17,7 +17,7 @@ mod read;
 #[cfg(feature = "svg")]
 mod shapes;
 
-pub use drawing::{Drawing, Polyline};
+pub use drawing::{Drawing, NamedShapes, Polyline};
 pub use error::SvgError;
 #[cfg(feature = "svg")]
 pub use read::{parse_svg, read_svg};

@@ -102,6 +102,17 @@ fn names() {
 }
 
 #[test]
+fn elements_with_a_name_and_their_shapes() {
+    let drawing = drawing(
+        "<g id='g'><line x2='1'/><g id='empty'><line id='point'/></g><g id='h'><line id='a' x2='1'/><line x2='2'/>\
+         </g></g><line id='b' y2='1'/><use id='u' href='#h'/><defs id='d'><line x2='1'/></defs>",
+    );
+    let found: Vec<_> = drawing.named.iter().map(|n| (n.id.as_str(), n.shapes.clone())).collect();
+    let expected = [("g", 0..4), ("empty", 1..2), ("point", 1..2), ("h", 2..4), ("a", 2..3), ("b", 4..5)];
+    assert_eq!(found, [&expected[..], &[("u", 5..7), ("h", 5..7), ("a", 5..6)]].concat());
+}
+
+#[test]
 fn fill_rules() {
     let drawing = drawing(
         "<g fill-rule='evenodd'><line x2='1'/><line x2='1' fill-rule='nonzero'/><rect width='1' height='1' \
@@ -310,6 +321,7 @@ fn complexes_out() {
     let back = parse_svg(&text, "a.svg", 1.).unwrap();
     let edges = Drawing {
         polylines: back.polylines.into_iter().filter(|p| p.id.as_deref() == Some("edges")).collect(),
+        named: Vec::new(),
     };
     let model = edges.to_model();
     assert_eq!(model.f_vector(), [9, 12]);

@@ -2,6 +2,7 @@
 
 use crate::files::Welder;
 use crate::{Cells, Model, Points};
+use std::ops::Range;
 
 /// A run of straight pieces, from one subpath of a drawing.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +24,18 @@ pub struct Polyline {
 pub struct Drawing {
     /// Open ones and closed ones.
     pub polylines: Vec<Polyline>,
+    /// The elements that have an `id` and hold a shape, in document order, groups before what is in them. What `use`
+    /// draws again stands here again.
+    pub named: Vec<NamedShapes>,
+}
+
+/// The shapes of an element with an `id`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NamedShapes {
+    /// The `id`.
+    pub id: String,
+    /// Numbers of its shapes: a group's are those of all elements in it.
+    pub shapes: Range<usize>,
 }
 
 impl Drawing {
@@ -36,7 +49,7 @@ impl Drawing {
     /// use lar_core::{Drawing, Points, Polyline};
     /// let points = Points::from_columns(2, vec![0., 0., 1., 0., 1., 1.]);
     /// let triangle = Polyline { id: None, shape: 0, even_odd: false, points, closed: true };
-    /// let model = Drawing { polylines: vec![triangle] }.to_model();
+    /// let model = Drawing { polylines: vec![triangle], named: Vec::new() }.to_model();
     /// assert_eq!(model.f_vector(), [3, 3]);
     /// ```
     #[doc(alias = "svg2lar")]

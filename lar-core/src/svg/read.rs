@@ -7,7 +7,7 @@
 
 use super::pen::{Map, Pen, Stop};
 use super::shapes::{self, Fault};
-use super::{Drawing, SvgError};
+use super::{Drawing, NamedShapes, SvgError};
 use crate::atomic_write::read;
 use roxmltree::{Document, Node, ParsingOptions};
 use rustc_hash::FxHashMap;
@@ -107,6 +107,13 @@ struct Visit<'a, 'i> {
     uses: usize,
 }
 
+/// What is to be done next.
+enum Step<'a, 'i> {
+    Visit(Visit<'a, 'i>),
+    /// The named element of this number has been drawn.
+    Close(usize),
+}
+
 struct Walk<'a, 'i> {
     file: &'a Path,
     root: Node<'a, 'i>,
@@ -120,9 +127,16 @@ struct Walk<'a, 'i> {
 
 impl<'a, 'i> Walk<'a, 'i> {
     fn run(&mut self) -> Result<(), SvgError> {
-        let mut stack =
-            vec![Visit { node: self.root, map: Map::UPRIGHT, id: None, even_odd: false, uses: 0 }];
-        while let Some(visit) = stack.pop() {
+        let root = Visit { node: self.root, map: Map::UPRIGHT, id: None, even_odd: false, uses: 0 };
+        let mut stack = vec![Step::Visit(root)];
+        while let Some(step) = stack.pop() {
+            let visit = match step {
+                Step::Visit(visit) => visit,
+                Step::Close(named) => {
+                    self.close(named);
+                    continue;
+                }
+            };
             self.visits = match self.visits.checked_sub(1) {
                 Some(left) => left,
                 None => return Err(self.too_large(visit.node, "elements")),
@@ -134,8 +148,13 @@ impl<'a, 'i> Walk<'a, 'i> {
         Ok(())
     }
 
-    fn visit(&mut self, visit: Visit<'a, 'i>, stack: &mut Vec<Visit<'a, 'i>>) -> Result<(), SvgError> {
+    fn visit(&mut self, visit: Visit<'a, 'i>, stack: &mut Vec<Step<'a, 'i>>) -> Result<(), SvgError> {
         let Visit { node, map, id, even_odd, uses } = visit;
+        if let Some(id) = node.attribute("id") {
+            let named = &mut self.pen.drawing.named;
+            stack.push(Step::Close(named.len()));
+            named.push(NamedShapes { id: id.to_owned(), shapes: self.pen.shape..self.pen.shape });
+        }
         let id = node.attribute("id").or(id);
         let even_odd = match property(node, "fill-rule") {
             Some("evenodd") => true,
@@ -163,6 +182,16 @@ impl<'a, 'i> Walk<'a, 'i> {
         Ok(())
     }
 
+    /// Without shapes a named element is forgotten, and so are those in it, which have none either.
+    fn close(&mut self, named: usize) {
+        let (end, all) = (self.pen.shape, &mut self.pen.drawing.named);
+        if all[named].shapes.start == end {
+            all.truncate(named);
+        } else {
+            all[named].shapes.end = end;
+        }
+    }
+
     /// Where an `svg` inside another stands.
     fn nested(&self, node: Node<'_, '_>) -> Result<Map, SvgError> {
         if node == self.root {
@@ -175,7 +204,7 @@ impl<'a, 'i> Walk<'a, 'i> {
         Ok(Map::translation(at("x")?.unwrap_or(0.), at("y")?.unwrap_or(0.)))
     }
 
-    fn reference(&self, visit: Visit<'a, 'i>, stack: &mut Vec<Visit<'a, 'i>>) -> Result<(), SvgError> {
+    fn reference(&self, visit: Visit<'a, 'i>, stack: &mut Vec<Step<'a, 'i>>) -> Result<(), SvgError> {
         const DEEPEST: usize = 32;
         let Visit { node, map, id, even_odd, uses } = visit;
         let href =
@@ -195,7 +224,7 @@ impl<'a, 'i> Walk<'a, 'i> {
             }
             push_children(stack, &Visit { node: target, map, id, even_odd, uses });
         } else {
-            stack.push(Visit { node: target, map, id, even_odd, uses });
+            stack.push(Step::Visit(Visit { node: target, map, id, even_odd, uses }));
         }
         Ok(())
     }
@@ -228,8 +257,8 @@ impl<'a, 'i> Walk<'a, 'i> {
     }
 }
 
-fn push_children<'a, 'i>(stack: &mut Vec<Visit<'a, 'i>>, parent: &Visit<'a, 'i>) {
-    stack.extend(parent.node.children().rev().map(|node| Visit { node, ..*parent }));
+fn push_children<'a, 'i>(stack: &mut Vec<Step<'a, 'i>>, parent: &Visit<'a, 'i>) {
+    stack.extend(parent.node.children().rev().map(|node| Step::Visit(Visit { node, ..*parent })));
 }
 
 fn hidden(node: Node<'_, '_>) -> bool {
