@@ -1,7 +1,7 @@
 //! What the commands refuse, and the exit codes.
 
 use lar_arrangement::{ArrangementError, BooleanError, ExpressionError};
-use lar_core::{FileError, JsonError, MeshFileError, ObjError};
+use lar_core::{FileError, JsonError, MeshFileError, ObjError, SvgError};
 use lar_triangle::TriangulateError;
 use std::io;
 use std::path::PathBuf;
@@ -20,6 +20,9 @@ pub enum CommandError {
     /// An OBJ file cannot be written.
     #[error(transparent)]
     Obj(#[from] ObjError),
+    /// An SVG drawing cannot be read.
+    #[error(transparent)]
+    Svg(#[from] SvgError),
     /// A chain complex cannot be read or written.
     #[error(transparent)]
     Json(#[from] JsonError),
@@ -51,6 +54,38 @@ pub enum CommandError {
     /// An input is a chain complex where surfaces are needed.
     #[error("{}: a chain complex cannot be an operand; operands are OBJ, STL, PLY or OFF files", .path.display())]
     NotASurface {
+        /// The file.
+        path: PathBuf,
+    },
+    /// An input is no drawing.
+    #[error("{}: drawings are .svg or .seg files", .path.display())]
+    NotADrawing {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A drawing has no segments.
+    #[error("{}: nothing is drawn there", .path.display())]
+    NothingDrawn {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Two regions of drawings have one name.
+    #[error(
+        "two regions are named {name}; give the drawings other names, by NAME=PATH, or the elements other ids"
+    )]
+    SameRegion {
+        /// The name.
+        name: String,
+    },
+    /// The result of a Boolean in the plane reaches to infinity.
+    #[error("{expression}: the result is unbounded")]
+    Unbounded {
+        /// The expression.
+        expression: String,
+    },
+    /// A picture of the plane is neither SVG nor PNG.
+    #[error("{}: pictures are .svg or .png files", .path.display())]
+    PictureFormat {
         /// The file.
         path: PathBuf,
     },

@@ -22,7 +22,9 @@ mod error;
 pub mod figures;
 mod mesh;
 mod output;
+pub mod plane;
 mod program;
+mod random;
 pub mod scenes;
 #[cfg(feature = "viewer")]
 mod shapes;

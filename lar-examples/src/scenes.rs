@@ -1,5 +1,6 @@
 //! Scenes with known arrangements, and families of scenes of any size.
 
+use crate::random::Random;
 use lar_core::{
     AffineError, Model, ModelError, Node, Points, Struct, StructError, Surface, cuboid_grid, icosphere, r, s,
     simplex, t, triangular_prism,
@@ -134,7 +135,7 @@ pub fn two_spheres(level: u32, offset: f64) -> Result<[Surface; 2], AffineError>
 /// few others. The same seed gives the same scene everywhere.
 #[must_use]
 pub fn random_cubes(n: usize, seed: u64) -> Struct {
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
     let side = 0.8 * (n as f64).cbrt();
     let nodes = (0..n).map(|_| {
         let place = [(); 3].map(|()| side * random.unit());
@@ -144,23 +145,6 @@ pub fn random_cubes(n: usize, seed: u64) -> Struct {
         Node::from(one.with(cube()))
     });
     Struct::from_nodes("random cubes", nodes.collect::<Vec<_>>())
-}
-
-/// The generator splitmix64 (Steele, Lea, Flood 2014).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// Uniform in 0..1.
-    fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
-    }
 }
 
 #[cfg(test)]

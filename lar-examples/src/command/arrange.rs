@@ -1,7 +1,7 @@
 //! `lar arrange`: the partition of space that the inputs generate.
 
 use super::input::{Inputs, Operands};
-use super::report::{Operand, Stages, Threads, counted};
+use super::report::{Operand, Stages, Threads, counted, print_laws};
 use crate::checks::{boundary_squared_zero, parents_ok};
 use crate::output::{Sink, check_directory, check_distinct, check_file, write_directory};
 use crate::{CommandError, tables};
@@ -129,7 +129,7 @@ impl Arrange {
                 read: operands.read.as_secs_f64(),
                 arrange: time.as_secs_f64(),
                 total: 0.0,
-                stages: Stages::of(a),
+                stages: Stages::of(a.stats()),
             },
         };
         report.seconds.total = start.elapsed().as_secs_f64();
@@ -166,9 +166,7 @@ fn print(arrangement: &Arrangement, report: &Report, out: &mut dyn Write) -> Res
         ("Euler's relation holds", report.euler_ok),
         ("the pieces of each input face add up", report.parents_ok),
     ];
-    for (law, holds) in laws {
-        writeln!(out, "{law}: {}", if holds { "yes" } else { "NO" })?;
-    }
+    print_laws(&laws, out)?;
     if 0 < report.dangling_faces {
         writeln!(out, "{} with the same cell on both sides", counted(report.dangling_faces, "face"))?;
     }

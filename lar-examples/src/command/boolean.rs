@@ -39,7 +39,7 @@ pub(crate) struct Boolean {
 
 #[derive(Clone, Copy, Debug, Default, clap::ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
-enum Fill {
+pub(crate) enum Fill {
     /// Odd winding numbers.
     EvenOdd,
     /// All but zero.
@@ -188,7 +188,7 @@ impl Boolean {
                 triangulate: surfaces.triangulate.as_secs_f64(),
                 operation: operation.as_secs_f64(),
                 total: 0.0,
-                stages: Stages::of(arrangement),
+                stages: Stages::of(arrangement.stats()),
             },
         };
         report.seconds.total = start.elapsed().as_secs_f64();

@@ -39,29 +39,29 @@ impl Operands {
     }
 }
 
-impl Inputs {
-    /// The operands' names and files. Names are settled before any file is read.
-    fn named(&self) -> Result<Vec<(String, PathBuf)>, CommandError> {
-        let defaults = operand_names(self.inputs.len());
-        let named = |(input, default): (&PathBuf, String)| match split(input) {
-            Some((name, path)) => (name.to_owned(), path),
-            None => (default, input.clone()),
-        };
-        let all: Vec<(String, PathBuf)> = self.inputs.iter().zip(defaults).map(named).collect();
-        let mut order: Vec<usize> = (0..all.len()).collect();
-        order.sort_by_key(|&i| &all[i].0);
-        match order.windows(2).find(|w| all[w[0]].0 == all[w[1]].0) {
-            None => Ok(all),
-            Some(w) => Err(CommandError::SameName {
-                name: all[w[0]].0.clone(),
-                files: [all[w[0]].1.clone(), all[w[1]].1.clone()],
-            }),
-        }
+/// The operands' names and files. Names are settled before any file is read.
+pub(crate) fn named(inputs: &[PathBuf]) -> Result<Vec<(String, PathBuf)>, CommandError> {
+    let defaults = operand_names(inputs.len());
+    let named = |(input, default): (&PathBuf, String)| match split(input) {
+        Some((name, path)) => (name.to_owned(), path),
+        None => (default, input.clone()),
+    };
+    let all: Vec<(String, PathBuf)> = inputs.iter().zip(defaults).map(named).collect();
+    let mut order: Vec<usize> = (0..all.len()).collect();
+    order.sort_by_key(|&i| &all[i].0);
+    match order.windows(2).find(|w| all[w[0]].0 == all[w[1]].0) {
+        None => Ok(all),
+        Some(w) => Err(CommandError::SameName {
+            name: all[w[0]].0.clone(),
+            files: [all[w[0]].1.clone(), all[w[1]].1.clone()],
+        }),
     }
+}
 
+impl Inputs {
     /// Reads all operands.
     pub(crate) fn read(&self) -> Result<Operands, CommandError> {
-        let named = self.named()?;
+        let named = named(&self.inputs)?;
         let start = Instant::now();
         let surfaces = named.iter().map(|(name, path)| read(name, path)).collect::<Result<_, _>>()?;
         let files = named.into_iter().map(|(_, path)| path).collect();
@@ -70,7 +70,7 @@ impl Inputs {
 }
 
 /// The name and the path of `name=path`; `None` when there is no name before a `=`, or the whole is an existing file.
-fn split(input: &Path) -> Option<(&str, PathBuf)> {
+pub(crate) fn split(input: &Path) -> Option<(&str, PathBuf)> {
     let (name, path) = input.to_str()?.split_once('=')?;
     let mut letters = name.chars();
     let starts = letters.next().is_some_and(|c| c.is_alphabetic() || c == '_');
@@ -98,8 +98,8 @@ mod tests {
 
     #[track_caller]
     fn check(inputs: &[&str], expected: Result<&[(&str, &str)], &str>) {
-        let inputs = Inputs { inputs: inputs.iter().map(PathBuf::from).collect() };
-        let found = inputs.named().map_err(|e| e.to_string());
+        let inputs: Vec<PathBuf> = inputs.iter().map(PathBuf::from).collect();
+        let found = named(&inputs).map_err(|e| e.to_string());
         let expected: Result<Vec<_>, _> = match expected {
             Ok(pairs) => Ok(pairs.iter().map(|&(n, p)| (n.to_owned(), PathBuf::from(p))).collect()),
             Err(message) => Err(message.to_owned()),

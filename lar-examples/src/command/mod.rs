@@ -1,4 +1,5 @@
-//! The command `lar`: arrangements and Booleans of OBJ files, pictures of them, facts about files.
+//! The command `lar`: arrangements and Booleans of surfaces and of drawings in the plane, pictures of them, facts about
+//! files.
 //!
 //! ```text
 //! lar arrange INPUT... [--json PATH|-] [--complex PATH] [--obj DIR] [--threads N]
@@ -6,6 +7,9 @@
 //! lar render INPUT... -o OUT.png [--explode S | SX,SY,SZ] [--alpha A] [--size WxH] [--cells all|solid]
 //! lar view INPUT... [--explode S | SX,SY,SZ] [--alpha A] [--cells all|solid]
 //! lar info INPUT
+//! lar plane INPUT... [--keep-dangling] [--json PATH|-] [--complex PATH] [-o OUT.svg|.png] [--explode S] [--size WxH]
+//!           [--tolerance T] [--threads N]
+//! lar plane --boolean EXPR INPUT... [--fill RULE] [--json PATH|-] [-o OUT.svg|.png] [--explode S] …
 //! ```
 //!
 //! Exit codes: 0 done, 2 bad input or usage, 3 no graphics adapter or display. An error is one line on the error
@@ -16,6 +20,7 @@ mod boolean;
 mod info;
 mod input;
 mod picture;
+mod plane;
 mod report;
 
 use crate::{CommandError, program};
@@ -23,7 +28,7 @@ use clap::{Parser, Subcommand};
 use std::ffi::OsString;
 use std::io::Write;
 
-/// Arrangements and Booleans of polygonal surfaces, exactly.
+/// Arrangements and Booleans of polygonal surfaces and of plane drawings, exactly.
 #[derive(Debug, Parser)]
 #[command(name = "lar", version)]
 struct Arguments {
@@ -38,6 +43,7 @@ enum Command {
     Render(picture::Render),
     View(picture::Window),
     Info(info::Info),
+    Plane(plane::Plane),
 }
 
 /// Runs the command: `args` begin with the program's name, results go to `out`, an error is one line on `err`.
@@ -61,5 +67,6 @@ fn dispatch(arguments: Arguments, out: &mut dyn Write) -> Result<(), CommandErro
         Command::Render(render) => render.run(out),
         Command::View(window) => window.run(),
         Command::Info(info) => info.run(out),
+        Command::Plane(plane) => plane.run(out),
     }
 }

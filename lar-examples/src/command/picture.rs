@@ -65,7 +65,6 @@ impl FromStr for Explode {
     type Err = &'static str;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let factor = |part: &str| part.trim().parse().ok().filter(|f: &f32| f.abs() <= EXPLODE_LIMIT);
         let factors: Option<Vec<f32>> = text.split(',').map(factor).collect();
         match factors.as_deref() {
             Some(&[s]) => Ok(Self([s; 3])),
@@ -73,6 +72,11 @@ impl FromStr for Explode {
             _ => Err("an explosion is one factor or three separated by commas, each within ±1e6"),
         }
     }
+}
+
+/// A factor of an explosion.
+pub(crate) fn factor(text: &str) -> Option<f32> {
+    text.trim().parse().ok().filter(|factor: &f32| factor.abs() <= EXPLODE_LIMIT)
 }
 
 fn alpha(text: &str) -> Result<f32, &'static str> {

@@ -1,9 +1,10 @@
 //! Parts that the reports of several commands share.
 
 use crate::CommandError;
-use lar_arrangement::{Arrangement, Arranger, Closure};
+use lar_arrangement::{Arrangement, Arranger, Closure, Stats};
 use lar_core::Surface;
 use serde::{Serialize, Serializer};
+use std::io::Write;
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 
@@ -72,8 +73,8 @@ impl Operand {
 pub(crate) struct Stages(Vec<(&'static str, Duration)>);
 
 impl Stages {
-    pub(crate) fn of(arrangement: &Arrangement) -> Self {
-        Self(arrangement.stats().stages.clone())
+    pub(crate) fn of(stats: &Stats) -> Self {
+        Self(stats.stages.clone())
     }
 }
 
@@ -81,6 +82,14 @@ impl Serialize for Stages {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(self.0.iter().map(|(name, time)| (name, time.as_secs_f64())))
     }
+}
+
+/// A line for each law, and whether it holds.
+pub(crate) fn print_laws(laws: &[(&str, bool)], out: &mut dyn Write) -> Result<(), CommandError> {
+    for (law, holds) in laws {
+        writeln!(out, "{law}: {}", if *holds { "yes" } else { "NO" })?;
+    }
+    Ok(())
 }
 
 /// `1 face`, `2 faces`.

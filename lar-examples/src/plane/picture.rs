@@ -1,0 +1,291 @@
+//! Pictures of the plane: painted paths, one over the other, and what of an arrangement they show.
+
+use super::color::{cyclic, face_colors};
+use lar_arrangement::planar::{PlanarArrangement, Polygons};
+use lar_core::{FaceId, Points, SvgStyle, SvgWriter};
+use std::fmt;
+
+/// Red, green, blue.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Color(pub [u8; 3]);
+
+/// Colour of edges and vertices.
+pub(super) const INK: Color = Color([0x2b, 0x2d, 0x33]);
+
+impl fmt::Display for Color {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [r, g, b] = self.0;
+        write!(f, "#{r:02x}{g:02x}{b:02x}")
+    }
+}
+
+/// A line: its colour, and its width in pixels of a picture 800 pixels high.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stroke {
+    /// The colour.
+    pub color: Color,
+    /// The width.
+    pub width: f64,
+}
+
+/// The edges of a partition.
+const EDGE: Stroke = Stroke { color: INK, width: 1.6 };
+/// Its vertices.
+const VERTEX: Stroke = Stroke { color: INK, width: 5.0 };
+/// Boundary cycles and fragments, which are all there is to see.
+const BOLD: f64 = 3.0;
+
+/// Lines are no wider than this part of the mean length of what is drawn, so that many small cells are not a black heap.
+const WIDEST: f64 = 0.2;
+
+/// Pictures have this part of their size free on each side.
+const MARGIN: f64 = 0.03;
+
+/// Height in pixels for which line widths are given.
+const DESIGN_HEIGHT: f64 = 800.0;
+
+/// One run of a path: its points, and whether the last is joined to the first. One point alone is a dot.
+pub type Run = (Vec<[f64; 2]>, bool);
+
+/// Runs that are painted alike.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PaintedPath {
+    /// Name of what it shows: `f1`, `edges`, …
+    pub id: String,
+    /// Its runs. The inside of the closed ones together, by parity, is filled.
+    pub runs: Vec<Run>,
+    /// Colour of the inside.
+    pub fill: Option<Color>,
+    /// The lines.
+    pub stroke: Option<Stroke>,
+}
+
+/// Painted paths.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Picture {
+    /// From back to front.
+    pub paths: Vec<PaintedPath>,
+}
+
+/// Where a picture stands: the box that it shows, and the length of one pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Frame {
+    pub lo: [f64; 2],
+    pub hi: [f64; 2],
+    pub per_pixel: f64,
+    /// Pixels for one pixel of a line's width.
+    pub scale: f64,
+}
+
+impl Picture {
+    /// The faces of an arrangement, neighbours in different colours. In place there are its edges and vertices over
+    /// them; exploded by another factor than 1 each face moves with its own edges.
+    ///
+    /// ```
+    /// use lar_arrangement::planar::{Drawing, planar_arrangement};
+    /// use lar_examples::plane::Picture;
+    /// let triangle = Drawing::from_segments(&[[0., 0., 1., 0.], [1., 0., 0., 1.], [0., 1., 0., 0.]]);
+    /// let picture = Picture::partition(&planar_arrangement(&triangle)?, 1.0);
+    /// let ids: Vec<&str> = picture.paths.iter().map(|path| path.id.as_str()).collect();
+    /// assert_eq!(ids, ["f1", "edges", "vertices"]);
+    /// # Ok::<(), lar_arrangement::ArrangementError>(())
+    /// ```
+    #[must_use]
+    pub fn partition(arrangement: &PlanarArrangement, explode: f64) -> Self {
+        let in_place = explode == 1.0;
+        let colors = face_colors(arrangement);
+        let face = |f: usize| PaintedPath {
+            id: format!("f{f}"),
+            runs: face_runs(arrangement, f, !in_place),
+            fill: Some(colors[f]),
+            stroke: (!in_place).then_some(EDGE),
+        };
+        let mut paths: Vec<PaintedPath> = (1..=arrangement.n_faces()).map(face).collect();
+        if !in_place {
+            paths.push(line("edges", dangling_runs(arrangement, FaceId(0)), EDGE));
+            return Self { paths }.exploded(explode);
+        }
+        let points = arrangement.complex().points();
+        paths.push(line("edges", edge_runs(arrangement).collect(), EDGE));
+        paths.push(line("vertices", points.iter().map(|p| (vec![[p[0], p[1]]], false)).collect(), VERTEX));
+        Self { paths }
+    }
+
+    /// The boundary cycles of the bounded faces, each face's in a colour of its own, exploded.
+    #[must_use]
+    pub fn cycles(arrangement: &PlanarArrangement, explode: f64) -> Self {
+        let colors = face_colors(arrangement);
+        let cycles = |f: usize| {
+            let stroke = Stroke { color: colors[f].darker(), width: BOLD };
+            line(&format!("f{f}"), face_runs(arrangement, f, true), stroke)
+        };
+        Self { paths: (1..=arrangement.n_faces()).map(cycles).collect() }.exploded(explode)
+    }
+
+    /// The edges, each moved by itself, in the colours of the shapes that they are from: shape k is made of
+    /// `shape_sizes[k]` of the segments that were arranged.
+    #[must_use]
+    pub fn fragments(arrangement: &PlanarArrangement, shape_sizes: &[usize], explode: f64) -> Self {
+        let mut shape_of = vec![0; arrangement.n_edges()];
+        let segments = shape_sizes.iter().enumerate().flat_map(|(k, &n)| std::iter::repeat_n(k, n));
+        for (segment, shape) in segments.enumerate() {
+            arrangement.edges_of(segment).for_each(|(edge, _)| shape_of[edge.index()] = shape);
+        }
+        let fragment = |(e, run): (usize, Run)| {
+            let stroke = Stroke { color: cyclic(shape_of[e]).darker(), width: BOLD };
+            line(&format!("e{e}"), vec![run], stroke)
+        };
+        Self { paths: edge_runs(arrangement).enumerate().map(fragment).collect() }.exploded(explode)
+    }
+
+    /// Closed outlines, each in a colour of its own.
+    #[must_use]
+    pub fn outlines(outlines: impl IntoIterator<Item = Vec<[f64; 2]>>) -> Self {
+        let outline = |(k, points): (usize, Vec<[f64; 2]>)| {
+            let stroke = Stroke { color: cyclic(k).darker(), width: 2.0 };
+            line(&format!("s{k}"), vec![(points, true)], stroke)
+        };
+        Self { paths: outlines.into_iter().enumerate().map(outline).collect() }
+    }
+
+    /// Polygons with holes in cyclic colours, with their outlines, exploded.
+    #[must_use]
+    pub fn polygons(polygons: &Polygons, explode: f64) -> Self {
+        let polygon = |(k, loops): (usize, &Vec<Vec<u32>>)| PaintedPath {
+            id: format!("p{k}"),
+            runs: loops.iter().map(|cycle| (positions(&polygons.points, cycle), true)).collect(),
+            fill: Some(cyclic(k)),
+            stroke: Some(EDGE),
+        };
+        Self { paths: polygons.polygons.iter().enumerate().map(polygon).collect() }.exploded(explode)
+    }
+
+    /// Each path moved rigidly: its centroid, the mean of its distinct points, becomes `factor` times as far from the
+    /// middle of the picture. O(n log n).
+    #[must_use]
+    pub fn exploded(mut self, factor: f64) -> Self {
+        let Some([lo, hi]) = self.bounds() else { return self };
+        let middle = [0, 1].map(|k| lo[k] / 2.0 + hi[k] / 2.0);
+        if factor == 1.0 {
+            return self;
+        }
+        for path in &mut self.paths {
+            let centroid = mean(path.runs.iter().flat_map(|(points, _)| points).copied().collect());
+            let shift = [0, 1].map(|k| (factor - 1.0) * (centroid[k] - middle[k]));
+            for point in path.runs.iter_mut().flat_map(|(points, _)| points) {
+                *point = [0, 1].map(|k| point[k] + shift[k]);
+            }
+        }
+        self
+    }
+
+    /// The picture as the text of an SVG document: holes are left out by parity, lines are as wide as in a PNG of
+    /// `size` pixels. Coordinates are those of the points, y negated.
+    #[must_use]
+    pub fn to_svg(&self, size: [u32; 2]) -> String {
+        let frame = self.frame(size);
+        let mut svg = SvgWriter::new(frame.lo, frame.hi);
+        for path in &self.paths {
+            let fill = path.fill.map(|color| color.to_string());
+            let stroke = path.stroke.map(|s| (s.color.to_string(), s.width * frame.scale * frame.per_pixel));
+            let style = SvgStyle {
+                id: &path.id,
+                fill: fill.as_deref(),
+                stroke: stroke.as_ref().map(|(color, width)| (color.as_str(), *width)),
+            };
+            svg.path(&style, path.runs.iter().map(|(points, closed)| (points, *closed)));
+        }
+        svg.finish()
+    }
+
+    /// Lower and upper corner of the box around all points.
+    fn bounds(&self) -> Option<[[f64; 2]; 2]> {
+        let points = self.paths.iter().flat_map(|path| &path.runs).flat_map(|(points, _)| points);
+        points.map(|&p| [p, p]).reduce(|[lo, hi], [p, _]| {
+            [[lo[0].min(p[0]), lo[1].min(p[1])], [hi[0].max(p[0]), hi[1].max(p[1])]]
+        })
+    }
+
+    /// The box around all points with a margin, as large as fits into `size` pixels.
+    pub(super) fn frame(&self, size: [u32; 2]) -> Frame {
+        let [mut lo, mut hi] = self.bounds().unwrap_or([[0.0; 2]; 2]);
+        let size = size.map(|n| f64::from(n.max(1)));
+        let extent = [0, 1].map(|k| hi[k] - lo[k]);
+        let room = |k: usize| extent[k] / (size[k] * (1.0 - 2.0 * MARGIN));
+        let fitting = room(0).max(room(1));
+        let per_pixel = if fitting > 0.0 { fitting } else { size[1].recip() };
+        let margin = MARGIN * size[0].min(size[1]) * per_pixel;
+        for k in 0..2 {
+            lo[k] -= margin;
+            hi[k] += margin;
+        }
+        let scale = (size[1] / DESIGN_HEIGHT).clamp(0.4, 4.0);
+        let widest = WIDEST * self.mean_length() / (EDGE.width * per_pixel);
+        Frame { lo, hi, per_pixel, scale: if widest > 0.0 { scale.min(widest) } else { scale } }
+    }
+
+    /// Mean length of the segments that are drawn.
+    fn mean_length(&self) -> f64 {
+        let (mut sum, mut n) = (0.0, 0.0);
+        let stroked = self.paths.iter().filter(|path| path.stroke.is_some());
+        for w in stroked.flat_map(|path| &path.runs).flat_map(|(points, _)| points.windows(2)) {
+            sum += (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1]);
+            n += 1.0;
+        }
+        if n > 0.0 { sum / n } else { 0.0 }
+    }
+}
+
+impl Color {
+    /// Dark enough for lines on white.
+    fn darker(self) -> Self {
+        Self(self.0.map(|channel| (f32::from(channel) * 0.75) as u8))
+    }
+}
+
+fn line(id: &str, runs: Vec<Run>, stroke: Stroke) -> PaintedPath {
+    PaintedPath { id: id.to_owned(), runs, fill: None, stroke: Some(stroke) }
+}
+
+fn positions(points: &Points, vertices: &[u32]) -> Vec<[f64; 2]> {
+    let at = |&v: &u32| [0, 1].map(|k| points.point(v as usize)[k]);
+    vertices.iter().map(at).collect()
+}
+
+fn edge_runs(arrangement: &PlanarArrangement) -> impl Iterator<Item = Run> + '_ {
+    let complex = arrangement.complex();
+    let edges = (0..arrangement.n_edges()).filter_map(|e| complex.edge_ends(e));
+    edges.map(|ends| (positions(complex.points(), &ends), false))
+}
+
+/// The loops that bound a face and, when asked for, the edges that dangle in it.
+fn face_runs(arrangement: &PlanarArrangement, face: usize, dangling: bool) -> Vec<Run> {
+    let complex = arrangement.complex();
+    let loops = complex.face_loops(face);
+    let mut runs: Vec<Run> = loops.iter().map(|cycle| (positions(complex.points(), cycle), true)).collect();
+    if dangling {
+        runs.extend(dangling_runs(arrangement, FaceId(face as u32)));
+    }
+    runs
+}
+
+/// The edges with one face on both sides.
+fn dangling_runs(arrangement: &PlanarArrangement, face: FaceId) -> Vec<Run> {
+    let points = arrangement.complex().points();
+    let mut sides = Vec::new();
+    for cycle in arrangement.face_vertices(face) {
+        let next = cycle.iter().skip(1).chain(cycle.first());
+        sides.extend(cycle.iter().zip(next).map(|(&a, &b)| [a.min(b), a.max(b)]));
+    }
+    sides.sort_unstable();
+    let twice = sides.chunk_by(|a, b| a == b).filter(|same| same.len() == 2);
+    twice.map(|same| (positions(points, &same[0]), false)).collect()
+}
+
+/// Mean of the distinct points.
+fn mean(mut points: Vec<[f64; 2]>) -> [f64; 2] {
+    points.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    points.dedup();
+    let n = points.len().max(1) as f64;
+    points.iter().fold([0.0; 2], |sum, p| [sum[0] + p[0] / n, sum[1] + p[1] / n])
+}

@@ -1,0 +1,93 @@
+//! Pictures of the plane as pixels, by the off-screen renderer: seen from above, without perspective or light.
+
+use super::picture::{Color, Frame, Picture};
+use crate::CommandError;
+use lar_core::{Points, TriangleMesh};
+use lar_triangle::{TriangulateError, Triangulator};
+use lar_viewer::{Camera, Drawable, Image, OffscreenRenderer, Projection, Rgb, Scene, View, WHITE};
+use std::collections::BTreeMap;
+use std::f64::consts::FRAC_PI_2;
+
+impl Picture {
+    /// Draws the picture in `size` pixels on white.
+    ///
+    /// # Errors
+    /// When a filled path cannot be triangulated, a coordinate is too large to be drawn, or the renderer fails.
+    pub fn render(&self, renderer: &mut OffscreenRenderer, size: [u32; 2]) -> Result<Image, CommandError> {
+        let frame = self.frame(size);
+        let mut scene = Scene::new();
+        self.fills()?.into_iter().try_for_each(|drawable| scene.push(drawable))?;
+        self.strokes(&frame).into_iter().try_for_each(|drawable| scene.push(drawable))?;
+        let view = View { camera: camera(&frame, size[1]), background: WHITE, ..View::default() };
+        Ok(renderer.render(&scene, &view, size[0], size[1])?)
+    }
+
+    /// The insides, a mesh for each colour.
+    fn fills(&self) -> Result<Vec<Drawable>, TriangulateError> {
+        let mut triangulator = Triangulator::new();
+        let mut meshes: BTreeMap<Color, TriangleMesh> = BTreeMap::new();
+        for (path, color) in self.paths.iter().filter_map(|path| Some((path, path.fill?))) {
+            let (points, loops) = numbered(path.runs.iter().filter(|run| run.1).map(|run| run.0.as_slice()));
+            let mut triangles = Vec::new();
+            triangulator.face(&points, loops.iter().map(Vec::as_slice), &mut triangles)?;
+            let empty = || TriangleMesh { points: Points::new(3), triangles: Vec::new() };
+            let mesh = meshes.entry(color).or_insert_with(empty);
+            let first = mesh.points.len() as u32;
+            points.iter().for_each(|p| mesh.points.push(&[p[0], p[1], 0.0]));
+            mesh.triangles.extend(triangles.iter().map(|t| t.map(|v| first + v)));
+        }
+        let drawable = |(color, mesh)| Drawable::mesh("faces", mesh).color(rgb(color)).unlit();
+        Ok(meshes.into_iter().map(drawable).collect())
+    }
+
+    /// Lines and dots, a drawable for each colour and width.
+    fn strokes(&self, frame: &Frame) -> Vec<Drawable> {
+        type Strokes = (Vec<[[f64; 3]; 2]>, Vec<[f64; 3]>);
+        let mut strokes: BTreeMap<(u64, Color), Strokes> = BTreeMap::new();
+        for (path, stroke) in self.paths.iter().filter_map(|path| Some((path, path.stroke?))) {
+            // Widths are not negative: their bits are in their order.
+            let (lines, dots) = strokes.entry((stroke.width.to_bits(), stroke.color)).or_default();
+            for (points, closed) in &path.runs {
+                let closing = if *closed { points.first() } else { None };
+                let next = points.iter().skip(1).chain(closing);
+                lines.extend(points.iter().zip(next).map(|(&a, &b)| [a, b].map(spatial)));
+                if let [dot] = points.as_slice() {
+                    dots.push(spatial(*dot));
+                }
+            }
+        }
+        let drawables = |((width, color), (lines, dots)): ((u64, Color), Strokes)| {
+            let pixels = (f64::from_bits(width) * frame.scale) as f32;
+            let lines = Drawable::lines("lines", lines).width(pixels).color(rgb(color));
+            [lines, Drawable::points("dots", dots).size(pixels).color(rgb(color))]
+        };
+        strokes.into_iter().flat_map(drawables).collect()
+    }
+}
+
+/// Looking straight down, y up in the picture.
+fn camera(frame: &Frame, height: u32) -> Camera {
+    let camera = Camera { projection: Projection::Orthographic, ..Camera::default() };
+    let distance = frame.per_pixel * f64::from(height) / (2.0 * (0.5 * camera.fov_y).tan());
+    let [x, y] = [0, 1].map(|k| frame.lo[k] / 2.0 + frame.hi[k] / 2.0);
+    Camera { target: [x, y, 0.0], distance, azimuth: -FRAC_PI_2, elevation: FRAC_PI_2, ..camera }
+}
+
+/// Points one after the other, and the loops over them.
+fn numbered<'a>(runs: impl Iterator<Item = &'a [[f64; 2]]>) -> (Points, Vec<Vec<u32>>) {
+    let (mut points, mut loops) = (Points::new(2), Vec::new());
+    for run in runs {
+        let first = points.len() as u32;
+        run.iter().for_each(|p| points.push(p));
+        loops.push((first..points.len() as u32).collect());
+    }
+    (points, loops)
+}
+
+fn spatial([x, y]: [f64; 2]) -> [f64; 3] {
+    [x, y, 0.0]
+}
+
+fn rgb(color: Color) -> Rgb {
+    color.0.map(|channel| f32::from(channel) / 255.0)
+}
