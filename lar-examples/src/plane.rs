@@ -7,6 +7,7 @@
 
 mod boolean;
 mod color;
+pub mod figures;
 mod file;
 mod input;
 mod picture;

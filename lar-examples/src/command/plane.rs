@@ -212,7 +212,7 @@ impl Plane {
             faces: a.n_faces(),
             components: a.n_components(),
             loops: a.n_loops(),
-            area: bounded.map(|face| a.area(face)).sum(),
+            area: bounded.map(|face| a.area(face)).fold(0.0, |sum, area| sum + area),
             boundary_squared_zero: boundary_squared_zero(a.complex()),
             euler: a.euler(),
             euler_ok: a.euler() == 0,

@@ -78,8 +78,8 @@ pub(super) struct Frame {
 }
 
 impl Picture {
-    /// The faces of an arrangement, neighbours in different colours. In place there are its edges and vertices over
-    /// them; exploded by another factor than 1 each face moves with its own edges.
+    /// The faces of an arrangement, neighbours in different colours. In place there are its edges over them, and dots for
+    /// its vertices but those along smooth curves; exploded by another factor than 1 each face moves with its own edges.
     ///
     /// ```
     /// use lar_arrangement::planar::{Drawing, planar_arrangement};
@@ -105,9 +105,8 @@ impl Picture {
             paths.push(line("edges", dangling_runs(arrangement, FaceId(0)), EDGE));
             return Self { paths }.exploded(explode);
         }
-        let points = arrangement.complex().points();
         paths.push(line("edges", edge_runs(arrangement).collect(), EDGE));
-        paths.push(line("vertices", points.iter().map(|p| (vec![[p[0], p[1]]], false)).collect(), VERTEX));
+        paths.push(line("vertices", corners(arrangement), VERTEX));
         Self { paths }
     }
 
@@ -256,6 +255,29 @@ fn edge_runs(arrangement: &PlanarArrangement) -> impl Iterator<Item = Run> + '_ 
     let complex = arrangement.complex();
     let edges = (0..arrangement.n_edges()).filter_map(|e| complex.edge_ends(e));
     edges.map(|ends| (positions(complex.points(), &ends), false))
+}
+
+/// A dot for each vertex but those of two edges that go on in nearly the same direction.
+fn corners(arrangement: &PlanarArrangement) -> Vec<Run> {
+    /// Squared length of the sum of two unit vectors at an angle of 165°: a circle of 24 sides is still smooth.
+    const SMOOTH: f64 = 0.069;
+    let complex = arrangement.complex();
+    let points = complex.points();
+    // Degree, and the sum of the directions to the neighbours.
+    let mut stars = vec![(0_u32, [0.0_f64; 2]); points.len()];
+    for [a, b] in (0..arrangement.n_edges()).filter_map(|e| complex.edge_ends(e)) {
+        let (p, q) = (points.point(a as usize), points.point(b as usize));
+        let [x, y] = [q[0] - p[0], q[1] - p[1]];
+        let length = x.hypot(y);
+        for (vertex, sign) in [(a, 1.0), (b, -1.0)] {
+            let (degree, sum) = &mut stars[vertex as usize];
+            *degree += 1;
+            *sum = [sum[0] + sign * x / length, sum[1] + sign * y / length];
+        }
+    }
+    let is_corner = |(degree, [x, y]): &(u32, [f64; 2])| *degree != 2 || SMOOTH <= x * x + y * y;
+    let corners = stars.iter().zip(points.iter()).filter(|(star, _)| is_corner(star));
+    corners.map(|(_, p)| (vec![[p[0], p[1]]], false)).collect()
 }
 
 /// The loops that bound a face and, when asked for, the edges that dangle in it.

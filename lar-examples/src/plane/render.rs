@@ -16,24 +16,35 @@ impl Picture {
     pub fn render(&self, renderer: &mut OffscreenRenderer, size: [u32; 2]) -> Result<Image, CommandError> {
         let frame = self.frame(size);
         let mut scene = Scene::new();
-        self.fills()?.into_iter().try_for_each(|drawable| scene.push(drawable))?;
+        self.fills(&frame)?.into_iter().try_for_each(|drawable| scene.push(drawable))?;
         self.strokes(&frame).into_iter().try_for_each(|drawable| scene.push(drawable))?;
         let view = View { camera: camera(&frame, size[1]), background: WHITE, ..View::default() };
         Ok(renderer.render(&scene, &view, size[0], size[1])?)
     }
 
+    /// How much higher each path lies than the one before it: by more than the renderer raises lines above faces, so
+    /// that later paths hide earlier ones. Many paths all lie in one plane; they would not tell anyway.
+    fn layer_step(&self, frame: &Frame) -> f64 {
+        const MOST: usize = 4096;
+        let width =
+            self.paths.iter().filter_map(|path| path.stroke).fold(0.0, |most: f64, s| most.max(s.width));
+        if self.paths.len() <= MOST { (2.0 * width * frame.scale + 1.0) * frame.per_pixel } else { 0.0 }
+    }
+
     /// The insides, a mesh for each colour.
-    fn fills(&self) -> Result<Vec<Drawable>, TriangulateError> {
+    fn fills(&self, frame: &Frame) -> Result<Vec<Drawable>, TriangulateError> {
+        let step = self.layer_step(frame);
         let mut triangulator = Triangulator::new();
         let mut meshes: BTreeMap<Color, TriangleMesh> = BTreeMap::new();
-        for (path, color) in self.paths.iter().filter_map(|path| Some((path, path.fill?))) {
+        let filled = self.paths.iter().enumerate().filter_map(|(i, path)| Some((i, path, path.fill?)));
+        for (i, path, color) in filled {
             let (points, loops) = numbered(path.runs.iter().filter(|run| run.1).map(|run| run.0.as_slice()));
             let mut triangles = Vec::new();
             triangulator.face(&points, loops.iter().map(Vec::as_slice), &mut triangles)?;
             let empty = || TriangleMesh { points: Points::new(3), triangles: Vec::new() };
             let mesh = meshes.entry(color).or_insert_with(empty);
             let first = mesh.points.len() as u32;
-            points.iter().for_each(|p| mesh.points.push(&[p[0], p[1], 0.0]));
+            points.iter().for_each(|p| mesh.points.push(&[p[0], p[1], step * i as f64]));
             mesh.triangles.extend(triangles.iter().map(|t| t.map(|v| first + v)));
         }
         let drawable = |(color, mesh)| Drawable::mesh("faces", mesh).color(rgb(color)).unlit();
@@ -44,7 +55,10 @@ impl Picture {
     fn strokes(&self, frame: &Frame) -> Vec<Drawable> {
         type Strokes = (Vec<[[f64; 3]; 2]>, Vec<[f64; 3]>);
         let mut strokes: BTreeMap<(u64, Color), Strokes> = BTreeMap::new();
-        for (path, stroke) in self.paths.iter().filter_map(|path| Some((path, path.stroke?))) {
+        let step = self.layer_step(frame);
+        let stroked = self.paths.iter().enumerate().filter_map(|(i, path)| Some((i, path, path.stroke?)));
+        for (i, path, stroke) in stroked {
+            let spatial = |[x, y]: [f64; 2]| [x, y, step * i as f64];
             // Widths are not negative: their bits are in their order.
             let (lines, dots) = strokes.entry((stroke.width.to_bits(), stroke.color)).or_default();
             for (points, closed) in &path.runs {
@@ -82,10 +96,6 @@ fn numbered<'a>(runs: impl Iterator<Item = &'a [[f64; 2]]>) -> (Points, Vec<Vec<
         loops.push((first..points.len() as u32).collect());
     }
     (points, loops)
-}
-
-fn spatial([x, y]: [f64; 2]) -> [f64; 3] {
-    [x, y, 0.0]
 }
 
 fn rgb(color: Color) -> Rgb {
