@@ -5,46 +5,7 @@ mod support;
 use lar_core::{ChainComplex, ObjGrouping, TriangleMesh, read_obj};
 use lar_examples::scenes;
 use serde_json::Value;
-use support::{Place, Run};
-
-/// Runs `lar` and expects success without a word on the error stream.
-#[track_caller]
-fn done<S: AsRef<std::ffi::OsStr>>(place: &Place, args: &[S]) -> Run {
-    let run = place.lar(args);
-    assert_eq!((run.code, run.err.as_str()), (0, ""), "{run:?}");
-    run
-}
-
-fn words(line: &str) -> Vec<&str> {
-    line.split(' ').collect()
-}
-
-/// Numbers that differ from run to run or from machine to machine replaced by their kind.
-fn redacted(json: &str) -> String {
-    let mut value: Value = serde_json::from_str(json).expect("valid JSON");
-    value["threads"] = "[threads]".into();
-    redact(&mut value["seconds"]);
-    round(&mut value);
-    serde_json::to_string_pretty(&value).expect("a value")
-}
-
-fn redact(seconds: &mut Value) {
-    match seconds {
-        Value::Object(map) => map.values_mut().for_each(redact),
-        Value::Number(time) if time.as_f64().is_some_and(|t| 0.0 <= t) => *seconds = "[seconds]".into(),
-        other => panic!("{other} is no time"),
-    }
-}
-
-/// Floating-point numbers to nine digits: the last bits depend on the machine's sine and cosine.
-fn round(value: &mut Value) {
-    match value {
-        Value::Object(map) => map.values_mut().for_each(round),
-        Value::Array(list) => list.iter_mut().for_each(round),
-        Value::Number(n) if n.is_f64() => *value = format!("{:.8e}", n.as_f64().unwrap_or(f64::NAN)).into(),
-        _ => {}
-    }
-}
+use support::{Place, done, redacted, words};
 
 #[test]
 fn arrangement_of_the_three_cubes() {
@@ -200,7 +161,7 @@ fn facts() {
 fn help_and_version() {
     let place = Place::new();
     assert_eq!(done(&place, &["--version"]).out, format!("lar {}\n", env!("CARGO_PKG_VERSION")));
-    let pages = ["", "arrange", "boolean", "render", "view", "info"].map(|command| {
+    let pages = ["", "arrange", "boolean", "render", "view", "info", "plane"].map(|command| {
         let args: Vec<&str> = [command, "--help"].into_iter().filter(|a| !a.is_empty()).collect();
         done(&place, &args).out
     });

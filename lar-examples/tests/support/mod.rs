@@ -1,6 +1,7 @@
 //! Files, and the programs run on them.
 #![allow(dead_code, reason = "each test program uses a part of this module")]
 
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -69,7 +70,12 @@ impl Place {
 
     /// Runs `three_cubes` in this directory.
     pub(crate) fn three_cubes(&self, args: &[&str]) -> Run {
-        self.run(Command::new(env!("CARGO_BIN_EXE_three_cubes")).args(args))
+        self.program(env!("CARGO_BIN_EXE_three_cubes"), args)
+    }
+
+    /// Runs another of the programs in this directory.
+    pub(crate) fn program(&self, program: &str, args: &[&str]) -> Run {
+        self.run(Command::new(program).args(args))
     }
 
     pub(crate) fn run(&self, command: &mut Command) -> Run {
@@ -86,4 +92,43 @@ impl Place {
 /// A file of the workspace's `fixtures`.
 pub(crate) fn fixture(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures").join(name)
+}
+
+/// Runs `lar` and expects success without a word on the error stream.
+#[track_caller]
+pub(crate) fn done<S: AsRef<std::ffi::OsStr>>(place: &Place, args: &[S]) -> Run {
+    let run = place.lar(args);
+    assert_eq!((run.code, run.err.as_str()), (0, ""), "{run:?}");
+    run
+}
+
+pub(crate) fn words(line: &str) -> Vec<&str> {
+    line.split(' ').collect()
+}
+
+/// Numbers that differ from run to run or from machine to machine replaced by their kind.
+pub(crate) fn redacted(json: &str) -> String {
+    let mut value: Value = serde_json::from_str(json).expect("valid JSON");
+    value["threads"] = "[threads]".into();
+    redact(&mut value["seconds"]);
+    round(&mut value);
+    serde_json::to_string_pretty(&value).expect("a value")
+}
+
+fn redact(seconds: &mut Value) {
+    match seconds {
+        Value::Object(map) => map.values_mut().for_each(redact),
+        Value::Number(time) if time.as_f64().is_some_and(|t| 0.0 <= t) => *seconds = "[seconds]".into(),
+        other => panic!("{other} is no time"),
+    }
+}
+
+/// Floating-point numbers to nine digits: the last bits depend on the machine's sine and cosine.
+fn round(value: &mut Value) {
+    match value {
+        Value::Object(map) => map.values_mut().for_each(round),
+        Value::Array(list) => list.iter_mut().for_each(round),
+        Value::Number(n) if n.is_f64() => *value = format!("{:.8e}", n.as_f64().unwrap_or(f64::NAN)).into(),
+        _ => {}
+    }
 }
