@@ -36,8 +36,6 @@ impl Aabb {
     }
 }
 
-const WIDTH: usize = 8;
-
 /// A node of the tree, ordered by how far right it reaches.
 #[derive(PartialEq)]
 struct Reach {
@@ -60,6 +58,32 @@ impl PartialOrd for Reach {
     }
 }
 
+/// Places of boxes along a Z-shaped space-filling curve: their order.
+pub(crate) fn z_order(boxes: &[Aabb]) -> Vec<u32> {
+    let all = boxes.iter().fold(Aabb::EMPTY, |a, b| a.joined(b));
+    let scale: [f64; 3] = std::array::from_fn(|k| {
+        if all.hi[k] > all.lo[k] { 1_048_575.0 / (all.hi[k] - all.lo[k]) } else { 0.0 }
+    });
+    let mut keyed: Vec<(u64, u32)> = boxes
+        .iter()
+        .zip(0..)
+        .map(|(b, i)| {
+            let cell: [u64; 3] = std::array::from_fn(|k| {
+                (((b.lo[k] - all.lo[k]) * 0.5 + (b.hi[k] - all.lo[k]) * 0.5) * scale[k]) as u64
+            });
+            (spread(cell[0]) | spread(cell[1]) << 1 | spread(cell[2]) << 2, i)
+        })
+        .collect();
+    parallel::sort_distinct_by(&mut keyed, Ord::cmp);
+    keyed.into_iter().map(|(_, i)| i).collect()
+}
+
+/// Number of items in a block.
+pub(crate) const WIDTH: usize = 8;
+
+/// No group.
+pub(crate) const NO_GROUP: u32 = u32::MAX;
+
 /// Boxes in a tree.
 #[derive(Debug)]
 pub(crate) struct BoxTree {
@@ -67,39 +91,57 @@ pub(crate) struct BoxTree {
     items: Vec<u32>,
     /// Level 0 holds the leaves' boxes; a box of level k + 1 encloses eight of level k.
     levels: Vec<Vec<Aabb>>,
+    /// The group that everything under a node belongs to, or `NO_GROUP`; empty when there are no groups.
+    groups: Vec<Vec<u32>>,
 }
 
 impl BoxTree {
     /// O(n log n).
     pub(crate) fn new(boxes: &[Aabb]) -> Self {
-        let all = boxes.iter().fold(Aabb::EMPTY, |a, b| a.joined(b));
-        let scale: [f64; 3] = std::array::from_fn(|k| {
-            if all.hi[k] > all.lo[k] { 1_048_575.0 / (all.hi[k] - all.lo[k]) } else { 0.0 }
-        });
-        let mut keyed: Vec<(u64, u32)> = boxes
-            .iter()
-            .zip(0..)
-            .map(|(b, i)| {
-                let cell: [u64; 3] = std::array::from_fn(|k| {
-                    (((b.lo[k] - all.lo[k]) * 0.5 + (b.hi[k] - all.lo[k]) * 0.5) * scale[k]) as u64
-                });
-                (spread(cell[0]) | spread(cell[1]) << 1 | spread(cell[2]) << 2, i)
-            })
-            .collect();
-        keyed.sort_unstable();
-        let items: Vec<u32> = keyed.into_iter().map(|(_, i)| i).collect();
-        let mut levels = vec![items.iter().map(|&i| boxes[i as usize]).collect::<Vec<_>>()];
+        Self::over(z_order(boxes), |i| boxes[i as usize])
+    }
+
+    /// A tree with its leaves in a given order. O(n).
+    pub(crate) fn over(items: Vec<u32>, box_of: impl Fn(u32) -> Aabb) -> Self {
+        let mut levels = vec![items.iter().map(|&i| box_of(i)).collect::<Vec<_>>()];
         while levels.last().is_some_and(|level| level.len() > 1) {
             let below = levels.last().expect("just seen");
             levels
                 .push(below.chunks(WIDTH).map(|c| c.iter().fold(Aabb::EMPTY, |a, b| a.joined(b))).collect());
         }
-        Self { items, levels }
+        Self { items, levels, groups: Vec::new() }
+    }
+
+    /// The tree with some items in groups: pairs of one group need not be visited, and whole subtrees of them are
+    /// passed over.
+    pub(crate) fn with_groups(mut self, group_of: impl Fn(u32) -> u32) -> Self {
+        let same = |c: &[u32]| if c.iter().all(|&g| g == c[0]) { c[0] } else { NO_GROUP };
+        self.groups = vec![self.items.iter().map(|&i| group_of(i)).collect()];
+        for k in 1..self.levels.len() {
+            let level = self.groups[k - 1].chunks(WIDTH).map(same).collect();
+            self.groups.push(level);
+        }
+        self
+    }
+
+    /// Whether all leaves under a node are of one group.
+    fn is_within(&self, group: u32, level: usize, i: usize) -> bool {
+        group != NO_GROUP && self.groups[level][i] == group
+    }
+
+    /// The group that all leaves of a block belong to.
+    fn group_of_block(&self, block: usize) -> u32 {
+        self.groups.get(1).map_or(NO_GROUP, |level| level[block])
+    }
+
+    /// The items in the order of the leaves.
+    pub(crate) fn items(&self) -> &[u32] {
+        &self.items
     }
 
     /// Calls `visit` with each item whose box meets `target`.
     pub(crate) fn query(&self, target: &Aabb, mut visit: impl FnMut(u32)) {
-        self.leaves(target, 0, &mut |leaf| visit(self.items[leaf]));
+        self.leaves(target, 0, NO_GROUP, &mut |leaf| visit(self.items[leaf]));
     }
 
     /// Calls `visit` with items whose boxes meet `target`, those that reach farther right first. The call is given
@@ -132,12 +174,12 @@ impl BoxTree {
         }
     }
 
-    /// Calls `visit` with each leaf at or after `first` whose box meets `target`.
-    fn leaves(&self, target: &Aabb, first: usize, visit: &mut impl FnMut(usize)) {
+    /// Calls `visit` with each leaf at or after `first` whose box meets `target` and that is not of a group.
+    fn leaves(&self, target: &Aabb, first: usize, group: u32, visit: &mut impl FnMut(usize)) {
         let top = self.levels.len() - 1;
         let mut stack: Vec<(usize, usize)> = (0..self.levels[top].len()).rev().map(|i| (top, i)).collect();
         while let Some((level, i)) = stack.pop() {
-            if !self.levels[level][i].meets(target) {
+            if !self.levels[level][i].meets(target) || self.is_within(group, level, i) {
                 continue;
             }
             if level == 0 {
@@ -146,10 +188,23 @@ impl BoxTree {
             }
             let below = self.levels[level - 1].len();
             let (from, to) = (i * WIDTH, ((i + 1) * WIDTH).min(below));
+            if level == 1 {
+                for leaf in from.max(first)..to {
+                    if self.levels[0][leaf].meets(target) && !self.is_within(group, 0, leaf) {
+                        visit(leaf);
+                    }
+                }
+                continue;
+            }
             // A subtree whose last leaf comes before `first` is of no use.
             let leaves_each = WIDTH.pow(level as u32 - 1);
             stack.extend((from..to).rev().filter(|c| (c + 1) * leaves_each > first).map(|c| (level - 1, c)));
         }
+    }
+
+    /// The items of a block and of all blocks after it.
+    pub(crate) fn items_from(&self, block: usize) -> &[u32] {
+        &self.items[block * WIDTH..]
     }
 
     /// Number of blocks of eight leaves.
@@ -163,12 +218,12 @@ impl BoxTree {
     }
 
     /// Calls `visit` with each pair of items whose boxes meet, one in the block, the other after it in the tree's
-    /// order. Over all blocks every pair comes once.
+    /// order. Over all blocks every pair comes once, but pairs of one group may be left out.
     pub(crate) fn pairs_of_block(&self, block: usize, mut visit: impl FnMut(u32, u32)) {
         let leaves = &self.levels[0];
         let (from, to) = (block * WIDTH, ((block + 1) * WIDTH).min(leaves.len()));
         let hull = leaves[from..to].iter().fold(Aabb::EMPTY, |a, b| a.joined(b));
-        self.leaves(&hull, from, &mut |other| {
+        self.leaves(&hull, from, self.group_of_block(block), &mut |other| {
             for this in from..to.min(other) {
                 if leaves[this].meets(&leaves[other]) {
                     visit(self.items[this], self.items[other]);

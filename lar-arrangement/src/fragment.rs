@@ -455,7 +455,7 @@ impl<'a> Local<'a> {
             let first = self.group[first as usize];
             let turned = !self.geometry().same_way(self.group[0], first);
             for &cycle in &subdivision.cycles_of_face[face] {
-                let half_edges = subdivision.cycles[cycle as usize].iter().map(|&h| h + 2 * first_piece);
+                let half_edges = subdivision.cycles.list[cycle as usize].iter().map(|&h| h + 2 * first_piece);
                 if turned {
                     out.half_edges.extend(half_edges.rev().map(|h| h ^ 1));
                 } else {

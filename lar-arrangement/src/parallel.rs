@@ -1,6 +1,7 @@
 //! Work in chunks: the same results in the same order for any number of threads.
 
 use crate::error::ArrangementError;
+use std::cmp::Ordering;
 use std::num::NonZeroUsize;
 
 /// Runs `f` with at most so many threads.
@@ -34,6 +35,56 @@ pub(crate) fn map<R: Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send) -> Ve
 #[cfg(not(feature = "rayon"))]
 pub(crate) fn map<R>(n: usize, f: impl Fn(usize) -> R) -> Vec<R> {
     (0..n).map(f).collect()
+}
+
+/// Runs both, and returns both results.
+#[cfg(feature = "rayon")]
+pub(crate) fn join<A: Send, B: Send>(
+    a: impl FnOnce() -> A + Send,
+    b: impl FnOnce() -> B + Send,
+) -> (A, B) {
+    rayon::join(a, b)
+}
+
+/// Runs both, and returns both results.
+#[cfg(not(feature = "rayon"))]
+pub(crate) fn join<A, B>(a: impl FnOnce() -> A, b: impl FnOnce() -> B) -> (A, B) {
+    (a(), b())
+}
+
+/// Sorts distinct items.
+#[cfg(feature = "rayon")]
+pub(crate) fn sort_distinct_by<T: Send>(items: &mut [T], cmp: impl Fn(&T, &T) -> Ordering + Sync) {
+    use rayon::prelude::*;
+    items.par_sort_unstable_by(cmp);
+}
+
+/// Sorts distinct items.
+#[cfg(not(feature = "rayon"))]
+pub(crate) fn sort_distinct_by<T>(items: &mut [T], cmp: impl Fn(&T, &T) -> Ordering) {
+    items.sort_unstable_by(cmp);
+}
+
+/// Applies `f` to the stretches of `items` between neighbouring offsets, which rise from 0 to their number.
+pub(crate) fn each_stretch<T: Send>(items: &mut [T], offsets: &[u32], f: impl Fn(&mut [T]) + Sync + Send) {
+    let stretches = |items: &mut [T], offsets: &[u32]| {
+        let mut rest = items;
+        for w in offsets.windows(2) {
+            let (stretch, after) = rest.split_at_mut((w[1] - w[0]) as usize);
+            f(stretch);
+            rest = after;
+        }
+    };
+    halve(items, offsets, &stretches);
+}
+
+fn halve<T: Send>(items: &mut [T], offsets: &[u32], f: &(impl Fn(&mut [T], &[u32]) + Sync + Send)) {
+    if offsets.len() < 4096 {
+        return f(items, offsets);
+    }
+    let middle = offsets.len() / 2;
+    let (left, right) = items.split_at_mut((offsets[middle] - offsets[0]) as usize);
+    join(|| halve(left, &offsets[..=middle], f), || halve(right, &offsets[middle..], f));
 }
 
 /// The ranges of at most `size` that make up 0..n.

@@ -315,7 +315,7 @@ fn positions(soup: &Soup, vertices: &[crate::kernel::Vertex]) -> Points {
 }
 
 pub(crate) fn boundary_1(n_vertices: usize, edges: &[[u32; 2]]) -> lar_core::Operator {
-    let signs = edges.iter().flat_map(|_| [-1, 1]).collect();
+    let signs = [-1, 1].repeat(edges.len());
     ChainComplex::operator_from_columns(n_vertices, Cells::uniform(2, edges.as_flattened().to_vec()), signs)
 }
 

@@ -26,32 +26,111 @@ pub(crate) trait Embedding {
     fn locate(&self, vertex: u32, component: u32, component_of: &[u32]) -> Option<u32>;
 }
 
+/// The half-edges round each face: a permutation's orbits, in the order of their smallest members.
+#[derive(Debug)]
+pub(crate) struct Cycles {
+    /// Half-edges of each cycle, each cycle counter-clockwise round its face.
+    pub list: Cells,
+    /// Cycle of each half-edge.
+    pub of: Vec<u32>,
+}
+
+impl Cycles {
+    /// `next` holds the half-edge after each one round the face on its left; fewer than 2^31 of them. O(n), in place
+    /// of `next`.
+    pub(crate) fn new(next: Vec<u32>) -> Self {
+        const VISITED: u32 = 1 << 31;
+        let mut of = next;
+        let mut half_edges = Vec::with_capacity(of.len());
+        let mut offsets = vec![0];
+        for start in 0..of.len() as u32 {
+            if of[start as usize] & VISITED != 0 {
+                continue;
+            }
+            let mark = VISITED | (offsets.len() as u32 - 1);
+            let mut h = start;
+            loop {
+                half_edges.push(h);
+                h = std::mem::replace(&mut of[h as usize], mark);
+                if h == start {
+                    break;
+                }
+            }
+            offsets.push(half_edges.len() as u32);
+        }
+        of.iter_mut().for_each(|mark| *mark ^= VISITED);
+        Self { list: Cells::from_parts(offsets, half_edges), of }
+    }
+}
+
 /// Faces of a planar subdivision. Face 0 is the unbounded one.
 #[derive(Debug)]
 pub(crate) struct Subdivision {
-    /// Half-edges of each cycle, each cycle counter-clockwise round its face.
-    pub cycles: Cells,
-    /// Cycle of each half-edge.
-    pub cycle_of: Vec<u32>,
+    pub cycles: Cycles,
     /// Face of each cycle.
     pub face_of: Vec<u32>,
     /// Cycles of each face, the outer one first (the unbounded face has none that is outer).
-    pub cycles_of_face: Vec<Vec<u32>>,
+    pub cycles_of_face: Cells,
+    /// Connected components of the edges.
+    pub n_components: usize,
 }
 
 impl Subdivision {
     /// `edges` join vertices below `n_vertices`; no edge is listed twice. O(n log n) and one location for each
-    /// component after the first.
+    /// component when there are several.
     pub(crate) fn new(n_vertices: usize, edges: &[[u32; 2]], embedding: &impl Embedding) -> Self {
         let mut star = Star::new(n_vertices, edges);
         let component_of = components(n_vertices, edges);
-        let firsts = first_vertices(&component_of, &star, embedding);
+        let mut firsts = first_vertices(&component_of, &star, embedding);
         star.sort(&firsts, embedding);
-        let (cycles, cycle_of) = cycles(edges, &star);
-        let mut out =
-            Self { face_of: vec![0; cycles.len()], cycles_of_face: vec![Vec::new()], cycles, cycle_of };
-        out.number_faces(&firsts, &star, &component_of, embedding);
-        out
+        firsts.sort_by(|&v, &w| embedding.sweep_order(v, w));
+        let cycles = Cycles::new(star.next());
+        let last = |v: u32| *star.leaving(v).last().expect("components have edges");
+        let outer: Vec<u32> = firsts.iter().map(|&v| cycles.of[last(v) as usize]).collect();
+        let around = |&v: &u32| match firsts.len() {
+            1 => None,
+            _ => embedding.locate(v, component_of[v as usize], &component_of),
+        };
+        let around: Vec<Option<u32>> = firsts.iter().map(around).collect();
+        Self::nested(cycles, &outer, &around)
+    }
+
+    /// Every cycle bounds a face from outside, except one for each component, which is a hole of the face that the
+    /// component lies in: the cycle with the wedge that opens towards −u at the component's first vertex. `outer`
+    /// holds these cycles in sweep order of the first vertices, `around` a half-edge of the face around each. That
+    /// is of a component that comes before it in the sweep: parents are settled first.
+    pub(crate) fn nested(cycles: Cycles, outer: &[u32], around: &[Option<u32>]) -> Self {
+        const UNSET: u32 = u32::MAX;
+        let mut face_of = vec![UNSET; cycles.list.len()];
+        outer.iter().for_each(|&cycle| face_of[cycle as usize] = 0);
+        let mut n_faces = 1;
+        for face in face_of.iter_mut().filter(|face| **face == UNSET) {
+            *face = n_faces;
+            n_faces += 1;
+        }
+        let mut n_cycles = vec![1; n_faces as usize];
+        n_cycles[0] = 0;
+        for (&cycle, &around) in outer.iter().zip(around) {
+            let face = around.map_or(0, |h| face_of[cycles.of[h as usize] as usize]);
+            face_of[cycle as usize] = face;
+            n_cycles[face as usize] += 1;
+        }
+        let mut offsets = vec![0];
+        for n in n_cycles {
+            offsets.push(offsets[offsets.len() - 1] + n);
+        }
+        let mut fill = offsets.clone();
+        let mut cycles_of_face = vec![0; cycles.list.len()];
+        let mut is_hole = vec![false; cycles.list.len()];
+        outer.iter().for_each(|&cycle| is_hole[cycle as usize] = true);
+        let outlines = (0..cycles.list.len() as u32).filter(|&cycle| !is_hole[cycle as usize]);
+        for cycle in outlines.chain(outer.iter().copied()) {
+            let at = &mut fill[face_of[cycle as usize] as usize];
+            cycles_of_face[*at as usize] = cycle;
+            *at += 1;
+        }
+        let cycles_of_face = Cells::from_parts(offsets, cycles_of_face);
+        Self { cycles, face_of, cycles_of_face, n_components: outer.len() }
     }
 
     /// Number of faces, the unbounded one included.
@@ -61,45 +140,7 @@ impl Subdivision {
 
     /// The face on the left of a half-edge.
     pub(crate) fn face(&self, half_edge: u32) -> u32 {
-        self.face_of[self.cycle_of[half_edge as usize] as usize]
-    }
-
-    /// Every cycle bounds a face from outside, except one for each component, which is a hole of the face that the
-    /// component lies in: the cycle with the wedge that opens towards −u at the component's first vertex.
-    fn number_faces(
-        &mut self,
-        firsts: &[u32],
-        star: &Star,
-        component_of: &[u32],
-        embedding: &impl Embedding,
-    ) {
-        let outer: Vec<u32> = firsts
-            .iter()
-            .map(|&v| self.cycle_of[*star.leaving(v).last().expect("components have edges") as usize])
-            .collect();
-        let mut is_hole = vec![false; self.cycles.len()];
-        for &cycle in &outer {
-            is_hole[cycle as usize] = true;
-        }
-        for (&hole, cycle) in is_hole.iter().zip(0..) {
-            if !hole {
-                self.face_of[cycle as usize] = self.cycles_of_face.len() as u32;
-                self.cycles_of_face.push(vec![cycle]);
-            }
-        }
-        // A component is located relative to one that comes before it in the sweep: parents are settled first.
-        let mut order: Vec<usize> = (0..firsts.len()).collect();
-        order.sort_by(|&i, &j| embedding.sweep_order(firsts[i], firsts[j]));
-        for i in order {
-            let v = firsts[i];
-            let around = match firsts.len() {
-                1 => None,
-                _ => embedding.locate(v, component_of[v as usize], component_of),
-            };
-            let face = around.map_or(0, |half_edge| self.face(half_edge));
-            self.face_of[outer[i] as usize] = face;
-            self.cycles_of_face[face as usize].push(outer[i]);
-        }
+        self.face_of[self.cycles.of[half_edge as usize] as usize]
     }
 }
 
@@ -107,8 +148,6 @@ impl Subdivision {
 struct Star {
     offsets: Vec<u32>,
     half_edges: Vec<u32>,
-    /// Place of each half-edge in `half_edges`.
-    place: Vec<u32>,
 }
 
 impl Star {
@@ -126,7 +165,7 @@ impl Star {
             half_edges[fill[v as usize] as usize] = h;
             fill[v as usize] += 1;
         }
-        Self { offsets, half_edges, place: Vec::new() }
+        Self { offsets, half_edges }
     }
 
     fn leaving(&self, v: u32) -> &[u32] {
@@ -148,17 +187,19 @@ impl Star {
                 self.half_edges[range].sort_by(|&a, &b| embedding.angular_order(a, b));
             }
         }
-        self.place = vec![0; self.half_edges.len()];
-        for (&h, at) in self.half_edges.iter().zip(0..) {
-            self.place[h as usize] = at;
-        }
     }
 
-    /// The first half-edge clockwise from h round the vertex that h leaves.
-    fn clockwise(&self, h: u32, v: u32) -> u32 {
-        let (from, to) = (self.offsets[v as usize], self.offsets[v as usize + 1]);
-        let at = self.place[h as usize];
-        self.half_edges[(if at == from { to - 1 } else { at - 1 }) as usize]
+    /// The half-edge after each one round its face: the first clockwise from its twin.
+    fn next(&self) -> Vec<u32> {
+        let mut next = vec![0; self.half_edges.len()];
+        for range in self.offsets.windows(2) {
+            let leaving = &self.half_edges[range[0] as usize..range[1] as usize];
+            let before = leaving.iter().cycle().skip(leaving.len().max(1) - 1);
+            for (&h, &clockwise) in leaving.iter().zip(before) {
+                next[(h ^ 1) as usize] = clockwise;
+            }
+        }
+        next
     }
 }
 
@@ -185,26 +226,4 @@ fn first_vertices(component_of: &[u32], star: &Star, embedding: &impl Embedding)
         }
     }
     first.into_iter().flatten().collect()
-}
-
-fn cycles(edges: &[[u32; 2]], star: &Star) -> (Cells, Vec<u32>) {
-    const UNSET: u32 = u32::MAX;
-    let mut cycle_of = vec![UNSET; 2 * edges.len()];
-    let mut cycles = Cells::with_capacity(0, 2 * edges.len());
-    let mut cycle = Vec::new();
-    for start in 0..2 * edges.len() as u32 {
-        if cycle_of[start as usize] != UNSET {
-            continue;
-        }
-        cycle.clear();
-        let mut h = start;
-        while cycle_of[h as usize] == UNSET {
-            cycle_of[h as usize] = cycles.len() as u32;
-            cycle.push(h);
-            let head = edges[(h / 2) as usize][(1 - h % 2) as usize];
-            h = star.clockwise(h ^ 1, head);
-        }
-        cycles.push(&cycle);
-    }
-    (cycles, cycle_of)
 }

@@ -73,6 +73,11 @@ impl Jumps {
 }
 
 impl Windings {
+    /// No solids.
+    pub(crate) fn of_none(n_cells: usize) -> Self {
+        Self { offsets: vec![0; n_cells + 1], ..Self::default() }
+    }
+
     /// `cells_of_face` holds the cells in front and behind of each face. O(faces · parents + entries).
     pub(crate) fn new(n_cells: usize, n_solids: usize, cells_of_face: &[[u32; 2]], jumps: &Jumps) -> Self {
         let tree = spanning_tree(n_cells, cells_of_face);

@@ -40,12 +40,10 @@ impl Polygons {
 impl PlanarArrangement {
     /// Winding numbers of the drawing's regions, from the jumps at the edges.
     pub(super) fn wind(&mut self, drawing: &Drawing) {
-        let n_regions = drawing.regions.len();
-        let (faces, jumps) = match n_regions {
-            0 => (Vec::new(), Jumps::new()),
-            _ => (self.faces_of_edges(), self.jumps(drawing)),
+        self.windings = match drawing.regions.len() {
+            0 => Windings::of_none(self.n_faces() + 1),
+            n => Windings::new(self.n_faces() + 1, n, &self.faces_of_edges(), &self.jumps(drawing)),
         };
-        self.windings = Windings::new(self.n_faces() + 1, n_regions, &faces, &jumps);
         self.regions.clone_from(&drawing.regions);
     }
 

@@ -5,9 +5,11 @@
 //! then y) to the larger, and are ranked by slope: the angular order of half-edges around any vertex is then an
 //! order of integers.
 
+use crate::boxes::{Aabb, z_order};
 use crate::kernel::Sign;
+use crate::parallel;
 use crate::planar::input::Drawing;
-use rustc_hash::FxHashMap;
+use crate::planar::points::unify;
 use std::cmp::Ordering;
 
 /// A segment of the input on the grid, as a stretch of a carrier.
@@ -22,13 +24,15 @@ pub(crate) struct Member {
     pub reversed: bool,
 }
 
-/// Carriers over grid points.
+/// Carriers over grid points, numbered along a space-filling curve: what is near in the plane is near in memory.
 #[derive(Debug, Default)]
 pub(crate) struct Carriers {
     /// Distinct grid points, in first-seen order.
     pub points: Vec<[i64; 2]>,
     /// Ends of each carrier, lexicographically ascending.
     pub ends: Vec<[u32; 2]>,
+    /// Their positions.
+    positions: Vec<[[i64; 2]; 2]>,
     /// Rank by slope, from just above vertical down to vertical up; parallel carriers have equal ranks.
     pub rank: Vec<u32>,
     /// Grid points strictly inside a carrier where members of it end: (carrier, point).
@@ -40,42 +44,36 @@ pub(crate) struct Carriers {
 impl Carriers {
     /// `snapped` are the grid positions of the drawing's points. O(n log n).
     pub(crate) fn new(drawing: &Drawing, snapped: &[[i64; 2]]) -> Self {
-        let mut out = Self::default();
-        let point_of = out.unify(snapped);
-        let mut segments: Vec<Segment> = Vec::with_capacity(drawing.segments.len());
-        for (&[a, b], input) in drawing.segments.iter().zip(0..) {
-            let ends = [a, b].map(|p| point_of[p as usize]);
-            if ends[0] != ends[1] {
-                segments.push(Segment::new(ends, input, &out.points));
-            }
-        }
-        segments.sort_unstable_by(|a, b| a.key.total_cmp(&b.key).then_with(|| a.input.cmp(&b.input)));
-        let mut begin = 0;
-        while begin < segments.len() {
-            let key = segments[begin].key;
-            let end = begin + segments[begin..].iter().take_while(|s| s.key == key).count();
-            if end - begin > 1 {
-                segments[begin..end].sort_by(|a, b| a.cmp_along_lines(b, &out.points));
-            }
-            begin = end;
-        }
+        let (points, point_of) = unify(snapped);
+        let segments = sorted_segments(drawing, &points, &point_of);
+        drop(point_of);
+        let mut out = Self { points, ..Self::default() };
         out.push_lines(&segments);
-        out.members.sort_unstable_by_key(|m| m.input);
+        out.number_in_space();
+        parallel::sort_distinct_by(&mut out.members, |a, b| a.input.cmp(&b.input));
         out
     }
 
-    fn unify(&mut self, snapped: &[[i64; 2]]) -> Vec<u32> {
-        let mut ids: FxHashMap<[i64; 2], u32> = FxHashMap::default();
-        ids.reserve(snapped.len());
-        snapped
-            .iter()
-            .map(|&p| {
-                *ids.entry(p).or_insert_with(|| {
-                    self.points.push(p);
-                    self.points.len() as u32 - 1
-                })
-            })
-            .collect()
+    /// Gives the carriers the numbers of their boxes along the curve.
+    fn number_in_space(&mut self) {
+        self.positions = self.ends.iter().map(|ends| ends.map(|p| self.points[p as usize])).collect();
+        let boxes = parallel::map(self.ends.len(), |c| self.box_of(c as u32));
+        let order = z_order(&boxes);
+        drop(boxes);
+        let mut new = vec![0; order.len()];
+        for (&old, number) in order.iter().zip(0..) {
+            new[old as usize] = number;
+        }
+        self.positions = order.iter().map(|&c| self.positions[c as usize]).collect();
+        self.ends = order.iter().map(|&c| self.ends[c as usize]).collect();
+        self.rank = order.iter().map(|&c| self.rank[c as usize]).collect();
+        self.stops.iter_mut().for_each(|(c, _)| *c = new[*c as usize]);
+        self.members.iter_mut().for_each(|m| m.carrier = new[m.carrier as usize]);
+    }
+
+    /// The box of a carrier.
+    pub(crate) fn box_of(&self, carrier: u32) -> Aabb {
+        Aabb::around(self.at(carrier).map(|[x, y]| [x as f64, y as f64, 0.0]))
     }
 
     /// Segments sorted by slope, line, and place along the line → carriers.
@@ -124,7 +122,7 @@ impl Carriers {
     }
 
     pub(crate) fn at(&self, carrier: u32) -> [[i64; 2]; 2] {
-        self.ends[carrier as usize].map(|p| self.points[p as usize])
+        self.positions[carrier as usize]
     }
 
     pub(crate) fn direction(&self, carrier: u32) -> [i64; 2] {
@@ -142,7 +140,25 @@ pub(crate) fn turn(a: [i64; 2], b: [i64; 2]) -> Sign {
     Sign::from(cross(a, b))
 }
 
+/// The segments with length, by slope, then by line, then along the line.
+fn sorted_segments(drawing: &Drawing, points: &[[i64; 2]], point_of: &[u32]) -> Vec<Segment> {
+    let segment = |input: u32| {
+        let ends = drawing.segments[input as usize].map(|p| point_of[p as usize]);
+        (ends[0] != ends[1]).then(|| Segment::new(ends, input, points))
+    };
+    let keys = parallel::map(drawing.segments.len(), |i| segment(i as u32).map(|s| (s.key, s.input)));
+    let mut keys: Vec<(f64, u32)> = keys.into_iter().flatten().collect();
+    parallel::sort_distinct_by(&mut keys, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let sorted = parallel::map(keys.len(), |i| segment(keys[i].1));
+    let mut sorted: Vec<Segment> = sorted.into_iter().flatten().collect();
+    for same in sorted.chunk_by_mut(|a, b| a.key == b.key).filter(|same| same.len() > 1) {
+        parallel::sort_distinct_by(same, |a, b| a.cmp_along_lines(b, points));
+    }
+    sorted
+}
+
 /// A segment with length, from its lexicographically smaller end.
+#[derive(Clone, Copy)]
 struct Segment {
     /// dy / dx, correctly rounded, so equal slopes have equal keys and unequal keys order exactly.
     key: f64,

@@ -5,7 +5,9 @@
 
 use crate::parallel;
 use crate::planar::carriers::Carriers;
-use crate::planar::crossings::{Along, Crossings, Event, KEY_ERROR, long_axis};
+use crate::planar::along::{Along, KEY_ERROR, long_axis};
+use crate::planar::crossings::Crossings;
+use crate::planar::events::{Event, sorted_by_place};
 use crate::union_find::UnionFind;
 
 /// Vertices along carriers.
@@ -17,11 +19,14 @@ pub(crate) struct Chains {
     pub chain: Vec<u32>,
     /// Where each carrier begins in `chain`; its edges are the steps of its stretch.
     pub offsets: Vec<u32>,
-    /// Vertex of each grid point that ends a segment.
+    /// Vertex of each grid point that ends a segment with length, `NO_VERTEX` for others.
     pub vertex_of_point: Vec<u32>,
     /// Places in `chain` of the first and last vertex of each member of a carrier.
     pub stretches: Vec<[u32; 2]>,
 }
+
+/// No vertex.
+const NO_VERTEX: u32 = u32::MAX;
 
 /// Where a vertex comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,22 +37,23 @@ pub(crate) enum VertexSource {
 
 impl Chains {
     /// O(events log events).
-    pub(crate) fn new(carriers: &Carriers, crossings: Crossings) -> Self {
-        let n_points = carriers.points.len() as u32;
-        let n = carriers.ends.len();
-        let Crossings { crossings: sources, events, .. } = crossings;
-        let (offsets, events) = by_carrier(n, &events);
-        let sources = &sources;
-        let (n_chunks, range) = parallel::chunks(n, 256);
-        let parts = parallel::map(n_chunks, |chunk| {
+    pub(crate) fn new(carriers: &Carriers, found: Crossings) -> Self {
+        let Crossings { crossings, ranges, lots, .. } = found;
+        let parts = parallel::map(ranges.len(), |range| {
+            let first = ranges.carriers(range).start;
+            let n = ranges.carriers(range).len();
+            let events: Vec<Event> = lots.iter().flat_map(|lot| lot.of_range(range)).collect();
+            let (offsets, mut events) = sorted_by_place(n, &events, |e| e.carrier as usize - first);
             let mut part = Part::default();
-            for c in range(chunk) {
-                part.push(carriers, sources, c as u32, &events[offsets[c] as usize..offsets[c + 1] as usize]);
+            for c in 0..n {
+                let own = &mut events[offsets[c] as usize..offsets[c + 1] as usize];
+                part.push(carriers, &crossings, (first + c) as u32, own);
             }
             part
         });
-        drop(events);
+        drop(lots);
         let mut out = Self { offsets: vec![0], ..Self::default() };
+        out.chain.reserve(parts.iter().map(|part| part.chain.len()).sum());
         let mut same = Vec::new();
         for part in parts {
             let base = out.chain.len() as u32;
@@ -55,7 +61,7 @@ impl Chains {
             out.chain.extend(part.chain);
             same.extend(part.same);
         }
-        out.number(n_points, sources, &same);
+        out.number(carriers.points.len() as u32, &crossings, &same);
         out.find_stretches(carriers);
         out
     }
@@ -81,36 +87,36 @@ impl Chains {
         }
     }
 
-    /// Numbers the vertices that occur, points first, crossings in the order they were found.
+    /// Numbers the vertices in the order in which they occur along the carriers.
     fn number(&mut self, n_points: u32, crossings: &[[u32; 2]], same: &[[u32; 2]]) {
         let n = n_points as usize + crossings.len();
-        let mut used = vec![false; n];
-        self.chain.iter().for_each(|&v| used[v as usize] = true);
-        let mut new = vec![0; n];
         let mut sets = (!same.is_empty()).then(|| UnionFind::new(n));
         if let Some(sets) = &mut sets {
             for &[a, b] in same {
                 sets.union(a, b);
-                used[a as usize] = true;
-                used[b as usize] = true;
             }
         }
-        for v in (0..n).filter(|&v| used[v]) {
-            // The representative is the smallest of its set, so it has its number already.
-            let root = sets.as_mut().map_or(v as u32, |s| s.find(v as u32));
-            if root == v as u32 {
-                new[v] = self.vertices.len() as u32;
-                self.vertices.push(match (v as u32).checked_sub(n_points) {
-                    None => VertexSource::Point(v as u32),
+        // A grid point represents its set, as its number is smaller than that of any crossing.
+        let mut root = |v: u32| sets.as_mut().map_or(v, |s| s.find(v));
+        let mut new = vec![NO_VERTEX; n];
+        for v in &mut self.chain {
+            let root = root(*v);
+            let number = &mut new[root as usize];
+            if *number == NO_VERTEX {
+                *number = self.vertices.len() as u32;
+                self.vertices.push(match root.checked_sub(n_points) {
+                    None => VertexSource::Point(root),
                     Some(crossing) => VertexSource::Crossing(crossings[crossing as usize]),
                 });
-            } else {
-                new[v] = new[root as usize];
             }
+            *v = *number;
         }
-        self.chain.iter_mut().for_each(|v| *v = new[*v as usize]);
-        new.truncate(n_points as usize);
-        self.vertex_of_point = new;
+        self.vertex_of_point = (0..n_points).map(|p| new[root(p) as usize]).collect();
+    }
+
+    /// Number of edges of all carriers.
+    pub(crate) fn n_edges(&self) -> usize {
+        self.chain.len() + 1 - self.offsets.len()
     }
 
     /// The vertices along a carrier.
@@ -119,36 +125,16 @@ impl Chains {
     }
 }
 
-/// Events by carrier: where each carrier's begin, and the events in that order.
-fn by_carrier(n: usize, events: &[Event]) -> (Vec<u32>, Vec<Event>) {
-    let mut offsets = vec![0u32; n + 1];
-    for e in events {
-        offsets[e.carrier as usize + 1] += 1;
-    }
-    for c in 0..n {
-        offsets[c + 1] += offsets[c];
-    }
-    let mut fill = offsets.clone();
-    let mut sorted = vec![Event { carrier: 0, vertex: 0, key: 0.0 }; events.len()];
-    for e in events {
-        let at = &mut fill[e.carrier as usize];
-        sorted[*at as usize] = *e;
-        *at += 1;
-    }
-    (offsets, sorted)
-}
-
 /// The chains of some carriers, with pairs of vertices that are one point.
 #[derive(Default)]
 struct Part {
     chain: Vec<u32>,
     ends: Vec<u32>,
     same: Vec<[u32; 2]>,
-    buffer: Vec<Event>,
 }
 
 impl Part {
-    fn push(&mut self, carriers: &Carriers, crossings: &[[u32; 2]], carrier: u32, events: &[Event]) {
+    fn push(&mut self, carriers: &Carriers, crossings: &[[u32; 2]], carrier: u32, events: &mut [Event]) {
         let n_points = carriers.points.len() as u32;
         let along = |v: u32| match v.checked_sub(n_points) {
             None => Along::point(carriers, carrier, v),
@@ -157,22 +143,19 @@ impl Part {
                 Along::crossing(carriers, carrier, if s == carrier { t } else { s })
             }
         };
-        self.buffer.clear();
-        self.buffer.extend_from_slice(events);
-        let sorted = &mut self.buffer;
-        sorted.sort_unstable_by(|a, b| a.key.total_cmp(&b.key).then_with(|| a.vertex.cmp(&b.vertex)));
+        events.sort_unstable_by(|a, b| a.key.total_cmp(&b.key).then_with(|| a.vertex.cmp(&b.vertex)));
         let ends = carriers.ends[carrier as usize];
         self.chain.push(ends[0]);
         let first = self.chain.len();
         // Keys that are too close to trust are put in order exactly, and equal points joined.
         let close = |a: &Event, b: &Event| b.key - a.key <= 2.0 * KEY_ERROR;
         let mut begin = 0;
-        while begin < sorted.len() {
+        while begin < events.len() {
             let mut end = begin + 1;
-            while end < sorted.len() && close(&sorted[end - 1], &sorted[end]) {
+            while end < events.len() && close(&events[end - 1], &events[end]) {
                 end += 1;
             }
-            let near = &mut sorted[begin..end];
+            let near = &mut events[begin..end];
             if near.len() > 1 {
                 near.sort_by(|a, b| along(a.vertex).cmp(&along(b.vertex)).then(a.vertex.cmp(&b.vertex)));
             }

@@ -1,113 +1,136 @@
-//! Planar stage 2: where carriers meet. Each meeting becomes an *event* on the carriers it is inside of.
-//!
-//! Many carriers through one point would make a quadratic number of events. Once eight of them are seen to meet a
-//! carrier in one point they are a *bundle*: their other pairs have no other point in common and are passed over.
+//! Planar stage 2: where carriers meet. Each meeting becomes an [`Event`] on the carriers it is inside of.
 
-use crate::boxes::{Aabb, BoxTree};
-use crate::kernel::Int;
+use crate::boxes::{BoxTree, NO_GROUP};
 use crate::parallel;
+use crate::planar::along::{key, long_axis};
+use crate::planar::bundles::{BUNDLE, Bundle, Bundles, bundles_at, n_sampled};
 use crate::planar::carriers::{Carriers, cross};
-use std::cmp::Ordering;
-
-/// A point inside a carrier: by its approximate coordinate along the carrier's longer axis.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Event {
-    pub carrier: u32,
-    /// A grid point, or (from the number of points on) a crossing.
-    pub vertex: u32,
-    /// Within `KEY_ERROR` of the exact coordinate.
-    pub key: f64,
-}
-
-/// p + d · t with |p|, |d| ≤ 2^41, t a quotient of two rounded integers: relative error of t below 2^-51, so
-/// 2^-10 for the product, and 2^-12 for its rounding and that of the sum.
-pub(crate) const KEY_ERROR: f64 = 1.0 / 512.0;
+use crate::planar::events::{CROSSING, Event, Lot, Ranges};
+use rustc_hash::FxHashMap;
+use std::ops::Range;
 
 /// Everything that lies inside carriers.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Crossings {
     /// The two carriers of each crossing.
     pub crossings: Vec<[u32; 2]>,
-    pub events: Vec<Event>,
+    pub ranges: Ranges,
+    pub lots: Vec<Lot>,
     pub pairs_tested: u64,
 }
 
-const BUNDLE: usize = 8;
-const NO_BUNDLE: u32 = u32::MAX;
-
-pub(crate) fn carrier_boxes(carriers: &Carriers) -> Vec<Aabb> {
-    (0..carriers.ends.len() as u32)
-        .map(|c| Aabb::around(carriers.at(c).map(|[x, y]| [x as f64, y as f64, 0.0])))
-        .collect()
-}
-
-/// O(n log n + pairs of boxes that meet).
+/// `tree` holds the boxes of the carriers, a sample of its blocks first. O(n log n + pairs of boxes that meet), where
+/// pairs of carriers in one large bundle do not count.
+///
+/// A sample is searched in rounds of growing length, so that bundles are known before most pairs are looked at. A
+/// block is paired with what comes after it, so what is left after a round can be laid out anew.
 pub(crate) fn crossings(carriers: &Carriers, tree: &BoxTree) -> Crossings {
-    let n_points = carriers.points.len() as u32;
-    let mut out = Crossings::default();
-    for &(carrier, p) in &carriers.stops {
-        let key = carriers.points[p as usize][long_axis(carriers.direction(carrier))] as f64;
-        out.events.push(Event { carrier, vertex: p, key });
-    }
-    let mut bundles = vec![NO_BUNDLE; carriers.ends.len()];
-    let mut n_bundles = 0;
-    let n_blocks = tree.n_blocks();
-    let (mut done, mut step) = (0, 4);
-    // Early rounds are short, so that bundles are known before most pairs are looked at.
-    while done < n_blocks {
-        let round = step.min(n_blocks - done);
-        let (n_chunks, range) = parallel::chunks(round, 64);
-        let parts = parallel::map(n_chunks, |chunk| {
-            let mut found = Found::default();
-            for block in range(chunk) {
-                let first_event = found.events.len();
-                tree.pairs_of_block(done + block, |i, j| {
-                    found.pairs += 1;
-                    let (a, b) = (bundles[i as usize], bundles[j as usize]);
-                    if a == NO_BUNDLE || a != b {
-                        found.meet(carriers, i, j);
-                    }
-                });
-                if found.events.len() - first_event >= 2 * BUNDLE {
-                    let pivot = tree.first_of_block(done + block);
-                    found.bundles.extend(found.bundles_at(carriers, pivot, first_event));
-                }
-            }
-            found
-        });
-        for part in parts {
-            let base = n_points + out.crossings.len() as u32;
+    let mut out = Crossings::with_stops(carriers);
+    let mut bundles = Bundles::of_fans(carriers);
+    let mut regrouped = (!bundles.is_empty()).then(|| bundles.tree(carriers, tree.items().to_vec()));
+    let sample = n_sampled(tree.items().len());
+    let (mut done, mut sampled, mut round) = (0, 0, 1);
+    loop {
+        let tree = regrouped.as_ref().unwrap_or(tree);
+        let n_blocks = tree.n_blocks();
+        let to = if sampled < sample { (done + round).min(n_blocks) } else { n_blocks };
+        let mut is_news = false;
+        for part in search(carriers, tree, &bundles, done..to) {
             for bundle in &part.bundles {
-                for &carrier in bundle {
-                    let mark = &mut bundles[carrier as usize];
-                    *mark = if *mark == NO_BUNDLE { n_bundles } else { *mark };
-                }
-                n_bundles += 1;
+                is_news |= bundles.learn(bundle);
             }
-            let moved = |v: u32| if v & CROSSING == 0 { v } else { base + (v ^ CROSSING) };
-            out.events.extend(part.events.iter().map(|e| Event { vertex: moved(e.vertex), ..*e }));
-            out.crossings.extend(part.crossings);
-            out.pairs_tested += part.pairs;
+            out.push(carriers, part);
         }
-        done += round;
-        step *= 2;
+        if to == n_blocks {
+            return out;
+        }
+        (done, sampled, round) = (to, sampled + to - done, 2 * round);
+        if is_news {
+            regrouped = Some(bundles.tree(carriers, tree.items_from(done).to_vec()));
+            done = 0;
+        }
     }
-    out
 }
 
-/// Marks vertices that are crossings of the same chunk.
-const CROSSING: u32 = 1 << 31;
+/// What is found in some blocks, a chunk of them at a time.
+fn search(carriers: &Carriers, tree: &BoxTree, bundles: &Bundles, blocks: Range<usize>) -> Vec<Part> {
+    let ranges = Ranges::new(carriers.ends.len());
+    let size = (tree.n_blocks() / 256).clamp(8, 64);
+    let (n_chunks, range) = parallel::chunks(blocks.len(), size);
+    parallel::map(n_chunks, |chunk| {
+        let mut found = Found::default();
+        for block in range(chunk) {
+            found.search(carriers, tree, bundles, blocks.start + block);
+        }
+        let Found { crossings, events, bundles, pairs, .. } = found;
+        Part { crossings, lot: Lot::new(ranges, &events), bundles, pairs }
+    })
+}
+
+impl Crossings {
+    /// The ends of collinear segments inside a carrier.
+    fn with_stops(carriers: &Carriers) -> Self {
+        let event = |&(carrier, vertex): &(u32, u32)| {
+            let key = carriers.points[vertex as usize][long_axis(carriers.direction(carrier))] as f64;
+            Event { carrier, vertex, key }
+        };
+        let events: Vec<Event> = carriers.stops.iter().map(event).collect();
+        let ranges = Ranges::new(carriers.ends.len());
+        Self { crossings: Vec::new(), ranges, lots: vec![Lot::new(ranges, &events)], pairs_tested: 0 }
+    }
+
+    fn push(&mut self, carriers: &Carriers, part: Part) {
+        let base = (carriers.points.len() + self.crossings.len()) as u32;
+        self.lots.push(part.lot.from_vertex(base));
+        self.crossings.extend(part.crossings);
+        self.pairs_tested += part.pairs;
+    }
+}
+
+/// What a chunk of blocks yields.
+struct Part {
+    crossings: Vec<[u32; 2]>,
+    lot: Lot,
+    bundles: Vec<Bundle>,
+    pairs: u64,
+}
 
 #[derive(Default)]
 struct Found {
     crossings: Vec<[u32; 2]>,
     events: Vec<Event>,
-    /// Carriers through one point.
-    bundles: Vec<Vec<u32>>,
+    bundles: Vec<Bundle>,
+    /// The last of these bundles that a carrier is in.
+    marks: FxHashMap<u32, u32>,
     pairs: u64,
 }
 
 impl Found {
+    /// The pairs of a block, without those in one bundle.
+    fn search(&mut self, carriers: &Carriers, tree: &BoxTree, bundles: &Bundles, block: usize) {
+        let first_event = self.events.len();
+        tree.pairs_of_block(block, |i, j| {
+            self.pairs += 1;
+            if !self.is_in_bundle(bundles, i, j) {
+                self.meet(carriers, i, j);
+            }
+        });
+        if self.events.len() - first_event >= 2 * BUNDLE {
+            let pivot = tree.first_of_block(block);
+            for bundle in bundles_at(carriers, pivot, &self.events[first_event..], &self.crossings) {
+                let number = self.bundles.len() as u32;
+                self.marks.extend(bundle.carriers.iter().map(|&c| (c, number)));
+                self.bundles.push(bundle);
+            }
+        }
+    }
+
+    fn is_in_bundle(&self, bundles: &Bundles, i: u32, j: u32) -> bool {
+        let bundle = bundles.of(i);
+        (bundle != NO_GROUP && bundle == bundles.of(j))
+            || (!self.marks.is_empty() && self.marks.get(&i).is_some_and(|mark| self.marks.get(&j) == Some(mark)))
+    }
+
     fn meet(&mut self, carriers: &Carriers, s: u32, t: u32) {
         let ([p, q], [r, w]) = (carriers.at(s), carriers.at(t));
         let (ends_s, ends_t) = (carriers.ends[s as usize], carriers.ends[t as usize]);
@@ -146,92 +169,8 @@ impl Found {
             }
         }
     }
-
-    /// Carriers that meet the pivot in one point become a bundle. `at_pivot` are the events found with the pivot as
-    /// the first carrier of the pair, with the other carrier.
-    fn bundles_at(&self, carriers: &Carriers, pivot: u32, first_event: usize) -> Vec<Vec<u32>> {
-        let mut met: Vec<(Event, u32)> = Vec::new();
-        for e in self.events[first_event..].iter().filter(|e| e.carrier == pivot && e.vertex & CROSSING != 0)
-        {
-            let [s, t] = self.crossings[(e.vertex ^ CROSSING) as usize];
-            met.push((*e, if s == pivot { t } else { s }));
-        }
-        if met.len() < BUNDLE {
-            return Vec::new();
-        }
-        met.sort_by(|a, b| a.0.key.total_cmp(&b.0.key));
-        let along = |other: u32| Along::crossing(carriers, pivot, other);
-        met.chunk_by(|a, b| b.0.key - a.0.key <= 2.0 * KEY_ERROR && along(a.1).cmp(&along(b.1)).is_eq())
-            .filter(|same| same.len() >= BUNDLE)
-            .map(|same| same.iter().map(|(_, other)| *other).chain([pivot]).collect())
-            .collect()
-    }
 }
 
 fn same_side(a: i128, b: i128) -> bool {
     (a > 0 && b > 0) || (a < 0 && b < 0)
-}
-
-pub(crate) fn long_axis(direction: [i64; 2]) -> usize {
-    usize::from(direction[1].abs() > direction[0].abs())
-}
-
-/// Approximate coordinate of the point where a carrier's sides to another one's line change from a to b.
-fn key(start: [i64; 2], direction: [i64; 2], a: i128, b: i128) -> f64 {
-    let axis = long_axis(direction);
-    let t = a as f64 / (a - b) as f64;
-    start[axis] as f64 + direction[axis] as f64 * t
-}
-
-/// The exact place of a point along a carrier: a + d · num / den with den > 0, all along the carrier's longer axis.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Along {
-    start: i64,
-    direction: i64,
-    num: i128,
-    den: i128,
-}
-
-impl Along {
-    /// A grid point on the carrier.
-    pub(crate) fn point(carriers: &Carriers, carrier: u32, p: u32) -> Self {
-        let axis = long_axis(carriers.direction(carrier));
-        Self { start: carriers.points[p as usize][axis], direction: 0, num: 0, den: 1 }
-    }
-
-    /// The crossing with another carrier.
-    pub(crate) fn crossing(carriers: &Carriers, carrier: u32, other: u32) -> Self {
-        let direction = carriers.direction(carrier);
-        let axis = long_axis(direction);
-        let (num, den) = parameter(carriers, carrier, other);
-        Self { start: carriers.at(carrier)[0][axis], direction: direction[axis], num, den }
-    }
-
-    /// Order of two points of one carrier. The coordinates differ by d · (num / den − num' / den') when both are
-    /// crossings; a grid point's coordinate is an integer.
-    pub(crate) fn cmp(&self, other: &Self) -> Ordering {
-        match (self.direction, other.direction) {
-            (0, 0) => self.start.cmp(&other.start),
-            (0, _) => other.cmp(self).reverse(),
-            (_, 0) => {
-                // 41 + 84 bits.
-                let offset = i128::from(other.start - self.start);
-                (i128::from(self.direction) * self.num).cmp(&(offset * self.den))
-            }
-            (d, _) => {
-                let product = |a: i128, b: i128| Int::<3>::from(a) * Int::from(b);
-                let order = product(self.num, other.den).cmp(&product(other.num, self.den));
-                if d < 0 { order.reverse() } else { order }
-            }
-        }
-    }
-}
-
-/// Where a carrier crosses another's line, as a fraction num / den of its length, den > 0. At most 84 bits each.
-pub(crate) fn parameter(carriers: &Carriers, carrier: u32, other: u32) -> (i128, i128) {
-    let ([p, q], [r, _]) = (carriers.at(carrier), carriers.at(other));
-    let direction = carriers.direction(other);
-    let side = |x: [i64; 2]| cross(direction, [x[0] - r[0], x[1] - r[1]]);
-    let (a, b) = (side(p), side(q));
-    if a > b { (a, a - b) } else { (-a, b - a) }
 }

@@ -1,32 +1,67 @@
-//! Planar stage 4: the embedding of the edges. Angular order is an order of the carriers' slope ranks; only the
-//! location of components needs coordinates.
+//! Planar stage 4b: faces from the cycles around them. Which component lies in which face is the only question that
+//! needs coordinates.
 
 use crate::boxes::{Aabb, BoxTree};
 use crate::kernel::Int;
+use crate::parallel;
 use crate::planar::carriers::{Carriers, cross};
 use crate::planar::chains::{Chains, VertexSource};
-use crate::planar::crossings::parameter;
-use crate::subdivision::Embedding;
+use crate::planar::along::parameter;
+use crate::planar::edges::{Edges, NO_EDGE, Run};
+use crate::subdivision::{Cycles, Subdivision};
 use std::cmp::Ordering;
 
-/// The edges of all carriers with what locating needs.
-pub(crate) struct PlanarEmbedding<'a> {
+/// What locating components needs.
+pub(crate) struct Embedding<'a> {
     pub carriers: &'a Carriers,
     pub chains: &'a Chains,
     /// Boxes of the carriers.
     pub tree: &'a BoxTree,
-    /// Carrier of each edge.
-    pub carrier_of: &'a [u32],
-    /// Number of each step of the chains among the edges, by place of its first vertex in `chains.chain`;
-    /// `NO_EDGE` where a chain ends or the edge was dropped.
-    pub edge_at: &'a [u32],
+    pub edges: &'a Edges,
     /// Rounded positions of the vertices in grid steps.
     pub positions: &'a [[f64; 2]],
 }
 
-pub(crate) const NO_EDGE: u32 = u32::MAX;
+impl Embedding<'_> {
+    /// The faces, from the cycles and the component of each run. O(n), and one location for each component when
+    /// there are several.
+    pub(crate) fn subdivision(&self, cycles: Cycles, component_of: &[u32]) -> Subdivision {
+        let firsts = self.first_runs(component_of);
+        let start = |run: u32| self.edges.start(&self.edges.runs[run as usize]);
+        let outer: Vec<u32> = firsts
+            .iter()
+            .map(|&run| cycles.of[2 * self.edges.runs[run as usize].first_edge as usize])
+            .collect();
+        let around = match firsts.len() {
+            1 => vec![None],
+            n => parallel::map(n, |i| self.locate(start(firsts[i]))),
+        };
+        Subdivision::nested(cycles, &outer, &around)
+    }
 
-impl PlanarEmbedding<'_> {
+    /// Of each component the run that leaves its first vertex last, counter-clockwise from the left. Carriers point
+    /// right or straight up, so a run begins there and all runs there do. Sorted by these vertices, from left to
+    /// right and upwards.
+    fn first_runs(&self, component_of: &[u32]) -> Vec<u32> {
+        let n = component_of.iter().max().map_or(0, |&c| c as usize + 1);
+        let order = |a: u32, b: u32| {
+            let [r, s] = [a, b].map(|run| &self.edges.runs[run as usize]);
+            let rank = |run: &Run| self.carriers.rank[run.carrier as usize];
+            let (v, w) = (self.edges.start(r), self.edges.start(s));
+            self.cmp(v, w, 0).then_with(|| self.cmp(v, w, 1)).then_with(|| rank(s).cmp(&rank(r)))
+        };
+        let mut firsts: Vec<Option<u32>> = vec![None; n];
+        for (&c, run) in component_of.iter().zip(0..) {
+            let best = &mut firsts[c as usize];
+            if best.is_none_or(|b| order(run, b).is_lt()) {
+                *best = Some(run);
+            }
+        }
+        let mut firsts: Vec<u32> = firsts.into_iter().flatten().collect();
+        parallel::sort_distinct_by(&mut firsts, |&a, &b| order(a, b));
+        firsts
+    }
+
     /// x and y times the denominator, and the denominator, which is positive: at most 126 and 84 bits.
     fn exact(&self, vertex: u32) -> ([Int<3>; 2], i128) {
         exact_vertex(self.carriers, self.chains.vertices[vertex as usize])
@@ -90,50 +125,12 @@ impl PlanarEmbedding<'_> {
         let rising = self.carriers.direction(carrier)[1] > 0;
         let below = |v: &u32| self.cmp(*v, vertex, 1).is_le();
         let n = chain.partition_point(|v| below(v) == rising);
-        self.edge_at[self.chains.offsets[carrier as usize] as usize + n - 1]
-    }
-}
-
-/// d × (v − p): `Greater` when a vertex lies left of a carrier's direction, `Less` when right of it.
-pub(crate) fn side_of_carrier(
-    carriers: &Carriers,
-    carrier: u32,
-    (position, w): ([Int<3>; 2], i128),
-) -> Ordering {
-    let [p, _] = carriers.at(carrier);
-    let d = carriers.direction(carrier);
-    let offset: [Int<4>; 2] = [0, 1].map(|k| position[k].resize() - Int::from(p[k]) * Int::from(w));
-    (Int::from(d[0]) * offset[1]).cmp(&(Int::from(d[1]) * offset[0]))
-}
-
-/// Coordinates times the denominator, and the denominator, which is positive: at most 126 and 84 bits.
-pub(crate) fn exact_vertex(carriers: &Carriers, source: VertexSource) -> ([Int<3>; 2], i128) {
-    match source {
-        VertexSource::Point(p) => (carriers.points[p as usize].map(Int::from), 1),
-        VertexSource::Crossing([s, t]) => exact_crossing(carriers, s, t),
-    }
-}
-
-/// p + d · num / den of the first carrier.
-pub(crate) fn exact_crossing(carriers: &Carriers, s: u32, t: u32) -> ([Int<3>; 2], i128) {
-    let (num, den) = parameter(carriers, s, t);
-    let ([p, _], d) = (carriers.at(s), carriers.direction(s));
-    ([0, 1].map(|k| Int::from(p[k]) * Int::from(den) + Int::from(d[k]) * Int::from(num)), den)
-}
-
-impl Embedding for PlanarEmbedding<'_> {
-    fn angular_order(&self, a: u32, b: u32) -> Ordering {
-        // Carriers point right, or straight up: forwards half-edges come first, each lot by slope.
-        let key = |h: u32| (h % 2, self.carriers.rank[self.carrier_of[(h / 2) as usize] as usize]);
-        key(a).cmp(&key(b))
+        self.edges.edge_at[self.chains.offsets[carrier as usize] as usize + n - 1]
     }
 
-    fn sweep_order(&self, a: u32, b: u32) -> Ordering {
-        self.cmp(a, b, 0).then_with(|| self.cmp(a, b, 1))
-    }
-
-    /// The nearest carrier to the left. None of the component's own is: the vertex is its first.
-    fn locate(&self, vertex: u32, _component: u32, _component_of: &[u32]) -> Option<u32> {
+    /// For the first vertex of a component: the half-edge on whose left it lies, on the nearest carrier to the left.
+    /// None of the component's own is there.
+    fn locate(&self, vertex: u32) -> Option<u32> {
         let [x, y] = self.positions[vertex as usize];
         let mut nearest: Option<([f64; 2], u32)> = None;
         let beam = Aabb { lo: [f64::NEG_INFINITY, y - 1.0, 0.0], hi: [x + 1.0, y + 1.0, 0.0] };
@@ -163,4 +160,31 @@ impl Embedding for PlanarEmbedding<'_> {
         let rising = self.carriers.direction(carrier)[1] > 0;
         Some(2 * edge + u32::from(rising))
     }
+}
+
+/// d × (v − p): `Greater` when a vertex lies left of a carrier's direction, `Less` when right of it.
+pub(crate) fn side_of_carrier(
+    carriers: &Carriers,
+    carrier: u32,
+    (position, w): ([Int<3>; 2], i128),
+) -> Ordering {
+    let [p, _] = carriers.at(carrier);
+    let d = carriers.direction(carrier);
+    let offset: [Int<4>; 2] = [0, 1].map(|k| position[k].resize() - Int::from(p[k]) * Int::from(w));
+    (Int::from(d[0]) * offset[1]).cmp(&(Int::from(d[1]) * offset[0]))
+}
+
+/// Coordinates times the denominator, and the denominator, which is positive: at most 126 and 84 bits.
+pub(crate) fn exact_vertex(carriers: &Carriers, source: VertexSource) -> ([Int<3>; 2], i128) {
+    match source {
+        VertexSource::Point(p) => (carriers.points[p as usize].map(Int::from), 1),
+        VertexSource::Crossing([s, t]) => exact_crossing(carriers, s, t),
+    }
+}
+
+/// p + d · num / den of the first carrier.
+pub(crate) fn exact_crossing(carriers: &Carriers, s: u32, t: u32) -> ([Int<3>; 2], i128) {
+    let (num, den) = parameter(carriers, s, t);
+    let ([p, _], d) = (carriers.at(s), carriers.direction(s));
+    ([0, 1].map(|k| Int::from(p[k]) * Int::from(den) + Int::from(d[k]) * Int::from(num)), den)
 }

@@ -9,7 +9,7 @@ use crate::boxes::{Aabb, BoxTree};
 use crate::kernel::Int;
 use crate::parallel;
 use crate::planar::carriers::cross;
-use crate::planar::crossings::long_axis;
+use crate::planar::along::long_axis;
 use crate::planar::faces::{exact_vertex, side_of_carrier};
 use crate::planar::query::Query;
 use crate::planar::result::PlanarArrangement;

@@ -2,16 +2,23 @@
 //! holes nested to any depth, provenance, regions and their Booleans (Paoluzzi 2019, §3.3 and §6.1).
 //!
 //! The stages: [`input`](Drawing) → carriers (segments that do not overlap) → crossings (events on carriers) →
-//! chains (events sorted and unified: vertices and edges) → faces.
+//! chains (events sorted and unified: vertices) → edges, cycles and faces → complex.
 
+mod along;
+mod assemble;
 mod boolean;
+mod bundles;
 mod carriers;
 mod chains;
 mod crossings;
+mod edges;
+mod events;
 mod faces;
 mod input;
 mod isolated;
 mod location;
+mod points;
+mod positions;
 mod query;
 mod restrict;
 mod result;

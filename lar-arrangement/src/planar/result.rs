@@ -3,19 +3,21 @@
 use crate::boxes::BoxTree;
 use crate::error::ArrangementError;
 use crate::grid::Grid;
-use crate::kernel::{Int, rounded_quotient};
 use crate::parallel;
+use crate::planar::assemble::assemble;
+use crate::planar::bundles::sample_first;
 use crate::planar::carriers::Carriers;
 use crate::planar::chains::{Chains, VertexSource};
-use crate::planar::crossings::{carrier_boxes, crossings};
-use crate::planar::faces::{NO_EDGE, PlanarEmbedding, exact_crossing};
+use crate::planar::crossings::crossings;
+use crate::planar::edges::{Edges, NO_EDGE};
+use crate::planar::faces::Embedding;
 use crate::planar::input::Drawing;
 use crate::planar::location::LocationIndex;
+use crate::planar::positions::{lengths, positions};
 use crate::stats::{Stats, Watch};
-use crate::subdivision::Subdivision;
-use crate::union_find::UnionFind;
+use crate::subdivision::Cycles;
 use crate::winding::Windings;
-use lar_core::{Biconnected, Cells, ChainComplex, EdgeId, FaceId, Graph, Points, VertexId};
+use lar_core::{Biconnected, Cells, ChainComplex, EdgeId, FaceId, Graph, VertexId};
 use std::num::NonZeroUsize;
 use std::sync::OnceLock;
 
@@ -49,7 +51,7 @@ pub struct PlanarArrangement {
     pub(super) face_loops: Vec<u32>,
     pub(super) n_components: usize,
     pub(super) carriers: Carriers,
-    chains: Chains,
+    pub(super) chains: Chains,
     /// What each vertex is.
     pub(super) sources: Vec<VertexSource>,
     pub(super) grid: Grid,
@@ -61,7 +63,7 @@ pub struct PlanarArrangement {
     pub(super) regions: Vec<String>,
     pub(super) windings: Windings,
     pub(super) isolated: Vec<(VertexId, FaceId)>,
-    stats: Stats,
+    pub(super) stats: Stats,
 }
 
 /// The arrangement of a drawing with the default options: dangling edges and bridges are left out.
@@ -144,23 +146,30 @@ impl PlanarArranger {
         let carriers = Carriers::new(drawing, &snapped);
         drop(snapped);
         watch.lap(&mut stats, "carriers");
-        let tree = BoxTree::new(&carrier_boxes(&carriers));
+        let n_carriers = carriers.ends.len() as u32;
+        let tree = BoxTree::over(sample_first(&Vec::from_iter(0..n_carriers)), |c| carriers.box_of(c));
         let found = crossings(&carriers, &tree);
         stats.pairs_tested = found.pairs_tested;
         stats.pairs_crossing = found.crossings.len() as u64;
         watch.lap(&mut stats, "crossings");
         let chains = Chains::new(&carriers, found);
-        let positions = positions(&carriers, &chains);
         watch.lap(&mut stats, "chains");
-        let mut edges = Edges::new(&chains);
-        let mut subdivision = edges.subdivision(&carriers, &chains, &tree, &positions);
-        if self.dangling == Dangling::Drop && edges.drop_dangling(&subdivision) {
-            subdivision = edges.subdivision(&carriers, &chains, &tree, &positions);
-        }
+        let (positions, (edges, cycles, component_of)) =
+            parallel::join(|| positions(&carriers, &chains), || self.cycles(&carriers, &chains));
+        watch.lap(&mut stats, "cycles");
+        let embedding = Embedding {
+            carriers: &carriers,
+            chains: &chains,
+            tree: &tree,
+            edges: &edges,
+            positions: &positions,
+        };
+        let subdivision = embedding.subdivision(cycles, &component_of);
+        drop((tree, component_of));
         watch.lap(&mut stats, "faces");
         stats.grid_step = grid.step();
         let positions = lengths(&grid, &carriers, &chains, positions);
-        let mut out = assemble(&positions, edges, &subdivision, chains, carriers, grid);
+        let mut out = assemble(positions, edges, subdivision, chains, carriers, grid);
         watch.lap(&mut stats, "complex");
         out.wind(drawing);
         watch.lap(&mut stats, "membership");
@@ -169,6 +178,24 @@ impl PlanarArranger {
         }
         out.stats = stats;
         Ok(out)
+    }
+
+    /// The edges that are kept, the cycles round their faces, and the component of each of their runs.
+    fn cycles(&self, carriers: &Carriers, chains: &Chains) -> (Edges, Cycles, Vec<u32>) {
+        let n_vertices = chains.vertices.len();
+        let edges = Edges::new(chains, |_| true);
+        let (cycles, component_of) = edges.cycles(carriers, n_vertices);
+        match self.dangling {
+            Dangling::Drop => match edges.without_dangling(chains, &cycles) {
+                Some(edges) => {
+                    drop((cycles, component_of));
+                    let (cycles, component_of) = edges.cycles(carriers, n_vertices);
+                    (edges, cycles, component_of)
+                }
+                None => (edges, cycles, component_of),
+            },
+            Dangling::Keep => (edges, cycles, component_of),
+        }
     }
 }
 
@@ -198,195 +225,6 @@ fn fitted_grid(drawing: &Drawing) -> Result<Grid, ArrangementError> {
     }
     let corner = |c: [f64; 2]| if lo[0] <= hi[0] { [c[0], c[1], 0.0] } else { [0.0; 3] };
     Ok(Grid::fitted(corner(lo), corner(hi)))
-}
-
-/// Correctly rounded positions in grid steps.
-fn positions(carriers: &Carriers, chains: &Chains) -> Vec<[f64; 2]> {
-    let (n_chunks, range) = parallel::chunks(chains.vertices.len(), 4096);
-    parallel::map(n_chunks, |chunk| {
-        chains.vertices[range(chunk)]
-            .iter()
-            .map(|source| match *source {
-                VertexSource::Point(p) => carriers.points[p as usize].map(|x| x as f64),
-                VertexSource::Crossing([s, t]) => {
-                    let (x, w) = exact_crossing(carriers, s, t);
-                    x.map(|x| rounded_quotient(&x, &w.into()))
-                }
-            })
-            .collect::<Vec<_>>()
-    })
-    .concat()
-}
-
-/// The edges that are kept, along their carriers.
-struct Edges {
-    ends: Vec<[u32; 2]>,
-    carrier_of: Vec<u32>,
-    /// Number of the edge that begins at each place of the chains.
-    edge_at: Vec<u32>,
-}
-
-impl Edges {
-    fn new(chains: &Chains) -> Self {
-        let n_carriers = chains.offsets.len() - 1;
-        let n = chains.chain.len() - n_carriers;
-        let mut out = Self {
-            ends: Vec::with_capacity(n),
-            carrier_of: Vec::with_capacity(n),
-            edge_at: Vec::with_capacity(chains.chain.len()),
-        };
-        for carrier in 0..n_carriers as u32 {
-            for w in chains.along(carrier).windows(2) {
-                out.edge_at.push(out.ends.len() as u32);
-                out.ends.push([w[0], w[1]]);
-                out.carrier_of.push(carrier);
-            }
-            out.edge_at.push(NO_EDGE);
-        }
-        out
-    }
-
-    fn subdivision(
-        &self,
-        carriers: &Carriers,
-        chains: &Chains,
-        tree: &BoxTree,
-        positions: &[[f64; 2]],
-    ) -> Subdivision {
-        let embedding = PlanarEmbedding {
-            carriers,
-            chains,
-            tree,
-            carrier_of: &self.carrier_of,
-            edge_at: &self.edge_at,
-            positions,
-        };
-        Subdivision::new(positions.len(), &self.ends, &embedding)
-    }
-
-    /// Leaves out the edges with one face on both sides; false when there are none. What remains has no others:
-    /// without them no two faces become one.
-    fn drop_dangling(&mut self, subdivision: &Subdivision) -> bool {
-        let keep: Vec<bool> = (0..self.ends.len() as u32)
-            .map(|e| subdivision.face(2 * e) != subdivision.face(2 * e + 1))
-            .collect();
-        if keep.iter().all(|&k| k) {
-            return false;
-        }
-        let mut new = 0;
-        for at in &mut self.edge_at {
-            if *at != NO_EDGE {
-                *at = if keep[*at as usize] {
-                    new += 1;
-                    new - 1
-                } else {
-                    NO_EDGE
-                };
-            }
-        }
-        let mut kept = keep.iter();
-        self.ends.retain(|_| *kept.next().expect("one flag an edge"));
-        let mut kept = keep.iter();
-        self.carrier_of.retain(|_| *kept.next().expect("one flag an edge"));
-        true
-    }
-}
-
-/// Positions in the drawing's unit of length: those in grid steps scaled exactly, or, far from the origin, rounded
-/// from the exact ones again.
-fn lengths(grid: &Grid, carriers: &Carriers, chains: &Chains, positions: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    let offset = grid.offset();
-    let moved = |v: usize| match chains.vertices[v] {
-        VertexSource::Point(p) => {
-            [0, 1].map(|k| (i128::from(carriers.points[p as usize][k]) + offset[k]) as f64)
-        }
-        VertexSource::Crossing([s, t]) => {
-            let (x, w) = exact_crossing(carriers, s, t);
-            [0, 1].map(|k| rounded_quotient(&(x[k] + Int::from(offset[k]) * Int::from(w)), &w.into()))
-        }
-    };
-    let far = offset != [0; 3];
-    positions
-        .into_iter()
-        .enumerate()
-        .map(|(v, p)| if far { moved(v) } else { p }.map(|x| grid.length(x)))
-        .collect()
-}
-
-fn assemble(
-    positions: &[[f64; 2]],
-    edges: Edges,
-    subdivision: &Subdivision,
-    chains: Chains,
-    carriers: Carriers,
-    grid: Grid,
-) -> PlanarArrangement {
-    let mut used = vec![false; positions.len()];
-    edges.ends.as_flattened().iter().for_each(|&v| used[v as usize] = true);
-    let mut new = vec![0u32; positions.len()];
-    let (mut coords, mut sources) = (Vec::new(), Vec::new());
-    for (v, position) in positions.iter().enumerate().filter(|(v, _)| used[*v]) {
-        new[v] = (coords.len() / 2) as u32;
-        coords.extend_from_slice(position);
-        sources.push(chains.vertices[v]);
-    }
-    let points = Points::from_columns(2, coords);
-    let ends: Vec<[u32; 2]> = edges.ends.iter().map(|e| e.map(|v| new[v as usize])).collect();
-    let mut sets = UnionFind::new(points.len());
-    ends.iter().for_each(|&[a, b]| {
-        sets.union(a, b);
-    });
-    // From along the carrier to from the smaller vertex to the larger.
-    let code = |h: u32| {
-        let [a, b] = ends[(h / 2) as usize];
-        if a < b { h } else { h ^ 1 }
-    };
-    let mut loops = Cells::with_capacity(subdivision.cycles.len(), subdivision.cycles.indices().len());
-    let mut face_loops = vec![0];
-    let mut columns = Cells::with_capacity(subdivision.n_faces(), subdivision.cycles.indices().len());
-    let mut signs = Vec::with_capacity(subdivision.cycles.indices().len());
-    let (mut one_loop, mut column, mut rows): (Vec<u32>, Vec<u32>, Vec<u32>) = Default::default();
-    for cycles in &subdivision.cycles_of_face {
-        column.clear();
-        for &cycle in cycles {
-            one_loop.clear();
-            one_loop.extend(subdivision.cycles[cycle as usize].iter().map(|&h| code(h)));
-            loops.push(&one_loop);
-            column.extend_from_slice(&one_loop);
-        }
-        face_loops.push(loops.len() as u32);
-        column.sort_unstable();
-        rows.clear();
-        for same in column.chunk_by(|a, b| a / 2 == b / 2) {
-            if let [h] = same {
-                rows.push(h / 2);
-                signs.push(if h % 2 == 0 { 1 } else { -1 });
-            }
-        }
-        columns.push(&rows);
-    }
-    let sorted: Vec<[u32; 2]> = ends.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
-    let boundaries = vec![
-        crate::pipeline::boundary_1(points.len(), &sorted),
-        ChainComplex::operator_from_columns(sorted.len(), columns, signs),
-    ];
-    PlanarArrangement {
-        complex: ChainComplex::new(points, boundaries),
-        loops,
-        face_loops,
-        n_components: sets.labels().1 as usize,
-        carriers,
-        chains,
-        sources,
-        grid,
-        index: OnceLock::new(),
-        edge_at: edges.edge_at,
-        carrier_of: edges.carrier_of,
-        regions: Vec::new(),
-        windings: Windings::default(),
-        isolated: Vec::new(),
-        stats: Stats::default(),
-    }
 }
 
 impl PlanarArrangement {

@@ -1,0 +1,203 @@
+//! Planar stage 4a: the edges along carriers, and the cycles of half-edges round the faces that they bound.
+//!
+//! A *run* is a stretch of edges along one carrier with none left out. The half-edges that leave a vertex are those of
+//! the runs that pass it: forwards ones by slope, then backwards ones by slope, as carriers point right or straight up.
+
+use crate::parallel;
+use crate::planar::carriers::Carriers;
+use crate::planar::chains::Chains;
+use crate::subdivision::Cycles;
+use crate::union_find::UnionFind;
+
+pub(crate) const NO_EDGE: u32 = u32::MAX;
+
+/// Successive edges along a carrier.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Run {
+    pub carrier: u32,
+    pub first_edge: u32,
+    /// The edge after the last.
+    pub end_edge: u32,
+}
+
+/// The edges that are kept, along their carriers. Half-edge 2e leads along the carrier, 2e + 1 back.
+#[derive(Debug)]
+pub(crate) struct Edges {
+    pub ends: Vec<[u32; 2]>,
+    pub runs: Vec<Run>,
+    /// Run of each edge.
+    pub run_of: Vec<u32>,
+    /// Number of the edge that begins at each place of the chains, or `NO_EDGE`.
+    pub edge_at: Vec<u32>,
+}
+
+impl Edges {
+    /// Those of all edges of the chains, numbered from one carrier to the next, that are to be kept.
+    pub(crate) fn new(chains: &Chains, keep: impl Fn(u32) -> bool) -> Self {
+        let n_carriers = chains.offsets.len() - 1;
+        let n = chains.n_edges();
+        let mut out = Self {
+            ends: Vec::with_capacity(n),
+            runs: Vec::with_capacity(n_carriers),
+            run_of: Vec::with_capacity(n),
+            edge_at: Vec::with_capacity(chains.chain.len()),
+        };
+        let mut all = 0..;
+        for carrier in 0..n_carriers as u32 {
+            let mut continues = false;
+            for (w, edge) in chains.along(carrier).windows(2).zip(&mut all) {
+                let keeps = keep(edge);
+                if keeps {
+                    out.push(carrier, [w[0], w[1]], continues);
+                } else {
+                    out.edge_at.push(NO_EDGE);
+                }
+                continues = keeps;
+            }
+            out.edge_at.push(NO_EDGE);
+        }
+        out
+    }
+
+    fn push(&mut self, carrier: u32, ends: [u32; 2], continues: bool) {
+        let edge = self.ends.len() as u32;
+        if !continues {
+            self.runs.push(Run { carrier, first_edge: edge, end_edge: edge });
+        }
+        self.edge_at.push(edge);
+        self.ends.push(ends);
+        self.run_of.push(self.runs.len() as u32 - 1);
+        self.runs.last_mut().expect("an edge is in a run").end_edge = edge + 1;
+    }
+
+    /// The same without edges that have one cycle on both sides; `None` when there are none. They are those with
+    /// one face on both sides, as other components do not join faces. What remains has no others: without them no
+    /// two faces become one.
+    pub(crate) fn without_dangling(&self, chains: &Chains, cycles: &Cycles) -> Option<Self> {
+        let dangles = |sides: &[u32]| sides[0] == sides[1];
+        let any = cycles.of.chunks_exact(2).any(dangles);
+        any.then(|| Self::new(chains, |e| !dangles(&cycles.of[2 * e as usize..][..2])))
+    }
+
+    pub(crate) fn start(&self, run: &Run) -> u32 {
+        self.ends[run.first_edge as usize][0]
+    }
+
+    /// Carrier of each edge.
+    pub(crate) fn carriers(&self) -> Vec<u32> {
+        self.run_of.iter().map(|&run| self.runs[run as usize].carrier).collect()
+    }
+
+    /// The cycles of half-edges, and the connected component of each run.
+    pub(crate) fn cycles(&self, carriers: &Carriers, n_vertices: usize) -> (Cycles, Vec<u32>) {
+        let star = Star::new(self, carriers, n_vertices);
+        let next = parallel::map(self.ends.len(), |e| {
+            let (run, [a, b]) = (self.run_of[e], self.ends[e]);
+            [star.clockwise(self, b, run, false), star.clockwise(self, a, run, true)]
+        });
+        let components = star.components(self.runs.len());
+        drop(star);
+        (Cycles::new(next.into_flattened()), components)
+    }
+}
+
+/// A run at a vertex.
+#[derive(Clone, Copy, Debug, Default)]
+struct Pass {
+    run: u32,
+    /// The edge that leaves the vertex forwards, unless the run ends here.
+    edge: u32,
+}
+
+/// The runs that pass each vertex, by slope.
+struct Star<'a> {
+    carriers: &'a Carriers,
+    offsets: Vec<u32>,
+    passes: Vec<Pass>,
+}
+
+/// So many runs at a vertex are searched one by one.
+const FEW: usize = 8;
+
+impl<'a> Star<'a> {
+    fn new(edges: &Edges, carriers: &'a Carriers, n_vertices: usize) -> Self {
+        let mut offsets = vec![0u32; n_vertices + 1];
+        for run in &edges.runs {
+            edges.vertices(run, |v, _| offsets[v as usize] += 1);
+        }
+        let mut end = 0;
+        for offset in &mut offsets {
+            end += *offset;
+            *offset = end;
+        }
+        // Filled from the back, every offset ends where its passes begin.
+        let mut passes = vec![Pass::default(); end as usize];
+        for (run, number) in edges.runs.iter().zip(0..) {
+            edges.vertices(run, |v, edge| {
+                offsets[v as usize] -= 1;
+                passes[offsets[v as usize] as usize] = Pass { run: number, edge };
+            });
+        }
+        let mut out = Self { carriers, offsets, passes: Vec::new() };
+        let rank = |p: &Pass| out.rank(edges, p.run);
+        parallel::each_stretch(&mut passes, &out.offsets, |at| match at {
+            [a, b] if rank(b) < rank(a) => std::mem::swap(a, b),
+            [_, _] => {}
+            _ => at.sort_unstable_by_key(rank),
+        });
+        out.passes = passes;
+        out
+    }
+
+    fn rank(&self, edges: &Edges, run: u32) -> u32 {
+        self.carriers.rank[edges.runs[run as usize].carrier as usize]
+    }
+
+    fn at(&self, vertex: u32) -> &[Pass] {
+        &self.passes[self.offsets[vertex as usize] as usize..self.offsets[vertex as usize + 1] as usize]
+    }
+
+    /// The half-edge that leaves a vertex first clockwise from that of a run, which leads forwards or backwards.
+    fn clockwise(&self, edges: &Edges, vertex: u32, run: u32, forwards: bool) -> u32 {
+        let passes = self.at(vertex);
+        let leaves = |p: &Pass, forwards: bool| {
+            let run = &edges.runs[p.run as usize];
+            if forwards {
+                (p.edge < run.end_edge).then_some(2 * p.edge)
+            } else {
+                (p.edge > run.first_edge).then(|| 2 * p.edge - 1)
+            }
+        };
+        let own = match passes.len() {
+            0..=FEW => passes.iter().position(|p| p.run == run),
+            _ => passes.binary_search_by_key(&self.rank(edges, run), |p| self.rank(edges, p.run)).ok(),
+        };
+        let own = own.expect("a run passes the ends of its edges");
+        let last = |passes: &[Pass], forwards| passes.iter().rev().find_map(|p| leaves(p, forwards));
+        last(&passes[..own], forwards)
+            .or_else(|| last(passes, !forwards))
+            .or_else(|| last(&passes[own..], forwards))
+            .expect("the half-edge itself, if there is no other")
+    }
+
+    /// Component of each run.
+    fn components(&self, n_runs: usize) -> Vec<u32> {
+        let mut sets = UnionFind::new(n_runs);
+        for range in self.offsets.windows(2) {
+            for w in self.passes[range[0] as usize..range[1] as usize].windows(2) {
+                sets.union(w[0].run, w[1].run);
+            }
+        }
+        sets.labels().0
+    }
+}
+
+impl Edges {
+    /// Calls `visit` with the vertices of a run, each with the edge that leaves it forwards.
+    fn vertices(&self, run: &Run, mut visit: impl FnMut(u32, u32)) {
+        visit(self.start(run), run.first_edge);
+        for edge in run.first_edge..run.end_edge {
+            visit(self.ends[edge as usize][1], edge + 1);
+        }
+    }
+}

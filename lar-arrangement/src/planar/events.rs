@@ -1,0 +1,96 @@
+//! Planar stage 2b: events, sorted by ranges of carriers as they are found, so that every range's can be gathered
+//! on its own.
+
+use std::ops::Range;
+
+/// A point inside a carrier: by its approximate coordinate along the carrier's longer axis.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Event {
+    pub carrier: u32,
+    /// A grid point, or (from the number of points on) a crossing.
+    pub vertex: u32,
+    /// Within `KEY_ERROR` of the exact coordinate.
+    pub key: f64,
+}
+
+/// Marks vertices that are crossings of the same lot.
+pub(crate) const CROSSING: u32 = 1 << 31;
+
+/// Ranges of carriers: at most 256, of 64 carriers or more.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ranges {
+    n_carriers: usize,
+    size: usize,
+}
+
+impl Ranges {
+    pub(crate) fn new(n_carriers: usize) -> Self {
+        Self { n_carriers, size: n_carriers.div_ceil(256).max(64) }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.n_carriers.div_ceil(self.size)
+    }
+
+    pub(crate) fn carriers(&self, range: usize) -> Range<usize> {
+        range * self.size..((range + 1) * self.size).min(self.n_carriers)
+    }
+
+    fn of(&self, carrier: u32) -> usize {
+        carrier as usize / self.size
+    }
+}
+
+/// Events by ranges of carriers.
+#[derive(Debug)]
+pub(crate) struct Lot {
+    events: Vec<Event>,
+    /// Where the events of each range begin.
+    offsets: Vec<u32>,
+    /// Number of the lot's first crossing among all vertices.
+    base: u32,
+}
+
+impl Lot {
+    /// Keeps the order of the events of a range.
+    pub(crate) fn new(ranges: Ranges, events: &[Event]) -> Self {
+        let (offsets, events) = sorted_by_place(ranges.len(), events, |e| ranges.of(e.carrier));
+        Self { events, offsets, base: 0 }
+    }
+
+    /// The same with the number of its first crossing.
+    pub(crate) fn from_vertex(self, base: u32) -> Self {
+        Self { base, ..self }
+    }
+
+    /// The events of a range, with the final numbers of their vertices.
+    pub(crate) fn of_range(&self, range: usize) -> impl Iterator<Item = Event> + '_ {
+        let vertex = |v: u32| if v & CROSSING == 0 { v } else { self.base + (v ^ CROSSING) };
+        self.events[self.offsets[range] as usize..self.offsets[range + 1] as usize]
+            .iter()
+            .map(move |e| Event { vertex: vertex(e.vertex), ..*e })
+    }
+}
+
+/// A counting sort that keeps the order of equal items: where those of each place begin, and all in order.
+pub(crate) fn sorted_by_place(
+    n_places: usize,
+    events: &[Event],
+    place: impl Fn(&Event) -> usize,
+) -> (Vec<u32>, Vec<Event>) {
+    let mut offsets = vec![0u32; n_places + 1];
+    for e in events {
+        offsets[place(e) + 1] += 1;
+    }
+    for i in 0..n_places {
+        offsets[i + 1] += offsets[i];
+    }
+    let mut fill = offsets.clone();
+    let mut sorted = vec![Event { carrier: 0, vertex: 0, key: 0.0 }; events.len()];
+    for e in events {
+        let at = &mut fill[place(e)];
+        sorted[*at as usize] = *e;
+        *at += 1;
+    }
+    (offsets, sorted)
+}

@@ -1,0 +1,43 @@
+//! Rounded positions of the vertices.
+
+use crate::grid::Grid;
+use crate::kernel::{Int, rounded_quotient};
+use crate::parallel;
+use crate::planar::carriers::Carriers;
+use crate::planar::chains::{Chains, VertexSource};
+use crate::planar::faces::exact_crossing;
+
+/// Correctly rounded positions in grid steps.
+pub(crate) fn positions(carriers: &Carriers, chains: &Chains) -> Vec<[f64; 2]> {
+    parallel::map(chains.vertices.len(), |v| match chains.vertices[v] {
+        VertexSource::Point(p) => carriers.points[p as usize].map(|x| x as f64),
+        VertexSource::Crossing([s, t]) => {
+            let (x, w) = exact_crossing(carriers, s, t);
+            x.map(|x| rounded_quotient(&x, &w.into()))
+        }
+    })
+}
+
+/// Positions in the drawing's unit of length: those in grid steps scaled exactly, or, far from the origin, rounded
+/// from the exact ones again.
+pub(crate) fn lengths(
+    grid: &Grid,
+    carriers: &Carriers,
+    chains: &Chains,
+    mut positions: Vec<[f64; 2]>,
+) -> Vec<[f64; 2]> {
+    let offset = grid.offset();
+    if offset != [0; 3] {
+        positions = parallel::map(positions.len(), |v| match chains.vertices[v] {
+            VertexSource::Point(p) => {
+                [0, 1].map(|k| (i128::from(carriers.points[p as usize][k]) + offset[k]) as f64)
+            }
+            VertexSource::Crossing([s, t]) => {
+                let (x, w) = exact_crossing(carriers, s, t);
+                [0, 1].map(|k| rounded_quotient(&(x[k] + Int::from(offset[k]) * Int::from(w)), &w.into()))
+            }
+        });
+    }
+    positions.iter_mut().flatten().for_each(|x| *x = grid.length(*x));
+    positions
+}
