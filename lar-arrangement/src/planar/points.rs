@@ -57,10 +57,10 @@ mod tests {
             let back: Vec<[i64; 2]> = number.iter().map(|&i| distinct[i as usize]).collect();
             prop_assert_eq!(&back, &points);
             let mut highest = 0;
-            prop_assert!(number.iter().all(|&i| {
+            for &i in &number {
+                prop_assert!(i <= highest);
                 highest = highest.max(i + 1);
-                i < highest
-            }));
+            }
             let mut sorted = distinct.clone();
             sorted.sort_unstable();
             prop_assert!(sorted.is_sorted_by(|a, b| a < b));
