@@ -7,15 +7,15 @@ use std::ops::Range;
 
 /// An axis-aligned closed box.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Aabb {
-    pub lo: [f64; 3],
-    pub hi: [f64; 3],
+pub(crate) struct Aabb<const D: usize = 3> {
+    pub lo: [f64; D],
+    pub hi: [f64; D],
 }
 
-impl Aabb {
-    pub(crate) const EMPTY: Self = Self { lo: [f64::INFINITY; 3], hi: [f64::NEG_INFINITY; 3] };
+impl<const D: usize> Aabb<D> {
+    pub(crate) const EMPTY: Self = Self { lo: [f64::INFINITY; D], hi: [f64::NEG_INFINITY; D] };
 
-    pub(crate) fn around(points: impl IntoIterator<Item = [f64; 3]>) -> Self {
+    pub(crate) fn around(points: impl IntoIterator<Item = [f64; D]>) -> Self {
         points.into_iter().fold(Self::EMPTY, |b, p| b.joined(&Self { lo: p, hi: p }))
     }
 
@@ -26,13 +26,9 @@ impl Aabb {
         }
     }
 
+    /// All comparisons are made: a branch for each would be predicted badly.
     pub(crate) fn meets(&self, other: &Self) -> bool {
-        self.lo[0] <= other.hi[0]
-            && other.lo[0] <= self.hi[0]
-            && self.lo[1] <= other.hi[1]
-            && other.lo[1] <= self.hi[1]
-            && self.lo[2] <= other.hi[2]
-            && other.lo[2] <= self.hi[2]
+        (0..D).fold(true, |meets, k| meets & (self.lo[k] <= other.hi[k]) & (other.lo[k] <= self.hi[k]))
     }
 }
 
@@ -58,22 +54,20 @@ impl PartialOrd for Reach {
     }
 }
 
-/// Places of boxes along a Z-shaped space-filling curve: their order.
-pub(crate) fn z_order(boxes: &[Aabb]) -> Vec<u32> {
-    let all = boxes.iter().fold(Aabb::EMPTY, |a, b| a.joined(b));
-    let scale: [f64; 3] = std::array::from_fn(|k| {
-        if all.hi[k] > all.lo[k] { 1_048_575.0 / (all.hi[k] - all.lo[k]) } else { 0.0 }
+/// The order of n boxes along a Z-shaped space-filling curve through their middles.
+pub(crate) fn z_order<const D: usize>(n: usize, box_of: impl Fn(u32) -> Aabb<D> + Sync + Send) -> Vec<u32> {
+    let all = (0..n as u32).fold(Aabb::EMPTY, |all, i| all.joined(&box_of(i)));
+    let scale: [f64; D] =
+        std::array::from_fn(
+            |k| {
+                if all.hi[k] > all.lo[k] { 1_048_575.0 / (all.hi[k] - all.lo[k]) } else { 0.0 }
+            },
+        );
+    let mut keyed = parallel::map(n, |i| {
+        let b = box_of(i as u32);
+        let cell = |k: usize| (((b.lo[k] - all.lo[k]) * 0.5 + (b.hi[k] - all.lo[k]) * 0.5) * scale[k]) as u64;
+        ((0..D).fold(0, |key, k| key | spread(cell(k)) << k), i as u32)
     });
-    let mut keyed: Vec<(u64, u32)> = boxes
-        .iter()
-        .zip(0..)
-        .map(|(b, i)| {
-            let cell: [u64; 3] = std::array::from_fn(|k| {
-                (((b.lo[k] - all.lo[k]) * 0.5 + (b.hi[k] - all.lo[k]) * 0.5) * scale[k]) as u64
-            });
-            (spread(cell[0]) | spread(cell[1]) << 1 | spread(cell[2]) << 2, i)
-        })
-        .collect();
     parallel::sort_distinct_by(&mut keyed, Ord::cmp);
     keyed.into_iter().map(|(_, i)| i).collect()
 }
@@ -86,23 +80,23 @@ pub(crate) const NO_GROUP: u32 = u32::MAX;
 
 /// Boxes in a tree.
 #[derive(Debug)]
-pub(crate) struct BoxTree {
+pub(crate) struct BoxTree<const D: usize = 3> {
     /// Item at each leaf.
     items: Vec<u32>,
     /// Level 0 holds the leaves' boxes; a box of level k + 1 encloses eight of level k.
-    levels: Vec<Vec<Aabb>>,
+    levels: Vec<Vec<Aabb<D>>>,
     /// The group that everything under a node belongs to, or `NO_GROUP`; empty when there are no groups.
     groups: Vec<Vec<u32>>,
 }
 
-impl BoxTree {
+impl<const D: usize> BoxTree<D> {
     /// O(n log n).
-    pub(crate) fn new(boxes: &[Aabb]) -> Self {
-        Self::over(z_order(boxes), |i| boxes[i as usize])
+    pub(crate) fn new(boxes: &[Aabb<D>]) -> Self {
+        Self::over(z_order(boxes.len(), |i| boxes[i as usize]), |i| boxes[i as usize])
     }
 
     /// A tree with its leaves in a given order. O(n).
-    pub(crate) fn over(items: Vec<u32>, box_of: impl Fn(u32) -> Aabb) -> Self {
+    pub(crate) fn over(items: Vec<u32>, box_of: impl Fn(u32) -> Aabb<D>) -> Self {
         let mut levels = vec![items.iter().map(|&i| box_of(i)).collect::<Vec<_>>()];
         while levels.last().is_some_and(|level| level.len() > 1) {
             let below = levels.last().expect("just seen");
@@ -140,17 +134,21 @@ impl BoxTree {
     }
 
     /// Calls `visit` with each item whose box meets `target`.
-    pub(crate) fn query(&self, target: &Aabb, mut visit: impl FnMut(u32)) {
+    pub(crate) fn query(&self, target: &Aabb<D>, mut visit: impl FnMut(u32)) {
         self.leaves(target, 0, NO_GROUP, &mut |leaf| visit(self.items[leaf]));
     }
 
     /// Calls `visit` with items whose boxes meet `target`, those that reach farther right first. The call is given
-    /// the current bound and returns a new one: boxes that end left of it are left out.
+    /// the current bound, `bound` at first, and returns a new one: boxes that end left of it are left out.
     ///
     /// Best first, not depth first: a subtree without anything of use must not be searched before the bound is
     /// known from another one.
-    pub(crate) fn query_leftwards(&self, target: &Aabb, mut visit: impl FnMut(u32, f64) -> f64) {
-        let mut bound = f64::NEG_INFINITY;
+    pub(crate) fn query_leftwards(
+        &self,
+        target: &Aabb<D>,
+        mut bound: f64,
+        mut visit: impl FnMut(u32, f64) -> f64,
+    ) {
         let top = self.levels.len() - 1;
         let mut heap = BinaryHeap::new();
         let add = |heap: &mut BinaryHeap<Reach>, bound: f64, level: usize, nodes: Range<usize>| {
@@ -175,7 +173,7 @@ impl BoxTree {
     }
 
     /// Calls `visit` with each leaf at or after `first` whose box meets `target` and that is not of a group.
-    fn leaves(&self, target: &Aabb, first: usize, group: u32, visit: &mut impl FnMut(usize)) {
+    fn leaves(&self, target: &Aabb<D>, first: usize, group: u32, visit: &mut impl FnMut(usize)) {
         let top = self.levels.len() - 1;
         let mut stack: Vec<(usize, usize)> = (0..self.levels[top].len()).rev().map(|i| (top, i)).collect();
         while let Some((level, i)) = stack.pop() {
@@ -289,7 +287,7 @@ mod tests {
                 let expected: Vec<u32> = (0..boxes.len() as u32).filter(|&i| boxes[i as usize].meets(target)).collect();
                 prop_assert_eq!(found, &expected[..]);
                 let mut found = Vec::new();
-                tree.query_leftwards(target, |i, bound| {
+                tree.query_leftwards(target, f64::NEG_INFINITY, |i, bound| {
                     found.push(i);
                     bound
                 });
@@ -298,7 +296,7 @@ mod tests {
                 prop_assert_eq!(&found, &expected);
                 // With the middle of the target as a bound from the first visit on.
                 let (mut found, middle) = (Vec::new(), (target.lo[0] + target.hi[0]) / 2.0);
-                tree.query_leftwards(target, |i, _| {
+                tree.query_leftwards(target, f64::NEG_INFINITY, |i, _| {
                     found.push(i);
                     middle
                 });

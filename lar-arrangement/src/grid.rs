@@ -17,6 +17,9 @@ pub(crate) struct Grid {
     exponent: i32,
     /// A multiple of the step for each axis.
     origin: [f64; 3],
+    /// Two factors that make steps of a length, and two that make a length of steps.
+    down: [f64; 2],
+    up: [f64; 2],
 }
 
 /// A model is recentred on an axis when the far end of its box is more than this many extents from 0: until then
@@ -39,7 +42,7 @@ impl Grid {
         // stays below 2^OFFSET_BITS steps.
         let finest = exponent_above(reach([0.0; 3])) - OFFSET_BITS;
         let exponent = (exponent_above(reach(origin)) - BITS).max(finest);
-        let mut grid = Self { exponent, origin: [0.0; 3] };
+        let mut grid = Self { exponent, origin: [0.0; 3], down: factors(-exponent), up: factors(exponent) };
         for (at, o) in grid.origin.iter_mut().zip(origin) {
             *at = scaled(scaled(o, -exponent).round(), exponent);
         }
@@ -57,8 +60,8 @@ impl Grid {
     }
 
     /// The nearest grid point.
-    pub(crate) fn snap(&self, p: [f64; 3]) -> [i64; 3] {
-        std::array::from_fn(|k| scaled(p[k] - self.origin[k], -self.exponent).round() as i64)
+    pub(crate) fn snap<const N: usize>(&self, p: [f64; N]) -> [i64; N] {
+        std::array::from_fn(|k| ((p[k] - self.origin[k]) * self.down[0] * self.down[1]).round() as i64)
     }
 
     /// The origin in steps; all zero for most models.
@@ -76,7 +79,7 @@ impl Grid {
     /// A coordinate in steps from 0 as a length. Exact unless the result is subnormal, or was rounded up beyond the
     /// largest number, which it then is.
     pub(crate) fn length(&self, steps: f64) -> f64 {
-        scaled(steps, self.exponent).clamp(f64::MIN, f64::MAX)
+        (steps * self.up[0] * self.up[1]).clamp(f64::MIN, f64::MAX)
     }
 }
 
@@ -91,8 +94,14 @@ fn exponent_above(x: f64) -> i32 {
 
 /// x · 2^e in two steps, so that neither factor overflows.
 fn scaled(x: f64, e: i32) -> f64 {
+    let [a, b] = factors(e);
+    x * a * b
+}
+
+/// Two factors of 2^e.
+fn factors(e: i32) -> [f64; 2] {
     let half = e / 2;
-    x * 2f64.powi(half) * 2f64.powi(e - half)
+    [2f64.powi(half), 2f64.powi(e - half)]
 }
 
 #[cfg(test)]

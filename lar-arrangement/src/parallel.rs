@@ -39,10 +39,7 @@ pub(crate) fn map<R>(n: usize, f: impl Fn(usize) -> R) -> Vec<R> {
 
 /// Runs both, and returns both results.
 #[cfg(feature = "rayon")]
-pub(crate) fn join<A: Send, B: Send>(
-    a: impl FnOnce() -> A + Send,
-    b: impl FnOnce() -> B + Send,
-) -> (A, B) {
+pub(crate) fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
     rayon::join(a, b)
 }
 
@@ -56,7 +53,11 @@ pub(crate) fn join<A, B>(a: impl FnOnce() -> A, b: impl FnOnce() -> B) -> (A, B)
 #[cfg(feature = "rayon")]
 pub(crate) fn sort_distinct_by<T: Send>(items: &mut [T], cmp: impl Fn(&T, &T) -> Ordering + Sync) {
     use rayon::prelude::*;
-    items.par_sort_unstable_by(cmp);
+    // On one thread the standard library's algorithm is the faster one.
+    match rayon::current_num_threads() {
+        1 => items.sort_unstable_by(cmp),
+        _ => items.par_sort_unstable_by(cmp),
+    }
 }
 
 /// Sorts distinct items.

@@ -118,8 +118,7 @@ fn near_touching() -> Vec<[f64; 4]> {
     let n = 2000;
     let mut random = Random(5004);
     let shortened = |[x, y, z, w]: [f64; 4]| [x, y, x + (z - x) * 0.1, y + (w - y) * 0.1];
-    let mut segments: Vec<[f64; 4]> =
-        (0..n).map(|_| shortened([(); 4].map(|()| random.unit()))).collect();
+    let mut segments: Vec<[f64; 4]> = (0..n).map(|_| shortened([(); 4].map(|()| random.unit()))).collect();
     for _ in 0..n {
         let [x, y, z, w] = segments[random.below(n) as usize];
         let t = random.unit();

@@ -48,6 +48,14 @@ impl Double {
         (acc, skip)
     }
 
+    /// Exact below 2^117.
+    fn from_i128(x: i128) -> Self {
+        let m = x.unsigned_abs();
+        let acc = Self { hi: (m >> 64) as u64 as f64 * 18_446_744_073_709_551_616.0, lo: 0.0 };
+        let acc = acc.plus((m as u64 >> 32) as f64 * 4_294_967_296.0).plus((m as u64 & 0xffff_ffff) as f64);
+        if x < 0 { Self { hi: -acc.hi, lo: -acc.lo } } else { acc }
+    }
+
     fn scaled(self, power_of_two: f64) -> Self {
         Self { hi: self.hi * power_of_two, lo: self.lo * power_of_two }
     }
@@ -76,5 +84,58 @@ impl Double {
         let low = low + self.lo - error - factor * divisor.lo;
         let (hi, lo) = quick_two_sum(sum, low);
         Self { hi, lo }
+    }
+}
+
+/// A quotient of two integers between 0 and 1.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fraction(Double);
+
+impl Fraction {
+    /// 0 ≤ numerator ≤ denominator < 2^105, denominator > 0. Relative error below 2^-98.
+    pub(crate) fn new(numerator: i128, denominator: i128) -> Self {
+        Self(Double::from_i128(numerator).over(Double::from_i128(denominator)))
+    }
+
+    /// start + direction · self rounded to the nearest `f64`, unless that is too close to call. Magnitudes of at most
+    /// 2^41.
+    ///
+    /// The product with the high part is exact, and so is its sum with the start, as sums of two numbers; the low
+    /// parts are below 2^-52 of |start| + |direction|, and so their roundings below 2^-103. With the quotient's error
+    /// the whole is off by less than 2^-97 of that; the bound is 2^-93.
+    pub(crate) fn between(&self, start: i64, direction: i64) -> Option<f64> {
+        let (start, direction) = (start as f64, direction as f64);
+        let (product, low) = two_product(direction, self.0.hi);
+        let (hi, lo) = two_sum(start, product);
+        let lo = lo + (low + direction * self.0.lo);
+        let error = (start.abs() + direction.abs()) * 2f64.powi(-93);
+        let (least, most) = (hi + (lo - error), hi + (lo + error));
+        (least == most).then_some(least)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::rounded_quotient;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn points_between_are_correctly_rounded(
+            (start, direction) in ((-1i64 << 40)..1 << 40, (-1i64 << 41)..1 << 41),
+            (a, b, shift) in (0i128..1 << 83, 1i128..1 << 83, 0u32..84),
+        ) {
+            let (numerator, denominator) = (a >> shift, (a + b) >> shift);
+            prop_assume!(denominator > 0);
+            let exact = Int::<3>::from(start) * Int::from(denominator) + Int::from(direction) * Int::from(numerator);
+            let exact = rounded_quotient(&exact, &denominator.into());
+            if let Some(found) = Fraction::new(numerator, denominator).between(start, direction) {
+                prop_assert_eq!(found, exact);
+            } else {
+                // Small quotients are often exact, or halfway between two numbers; others are nearly always decided.
+                prop_assert!(shift > 20, "{} {} {} {}", start, direction, numerator, denominator);
+            }
+        }
     }
 }

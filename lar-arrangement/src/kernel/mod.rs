@@ -27,6 +27,7 @@ mod predicates;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use double::Fraction;
 pub(crate) use int::Int;
 pub(crate) use point::{Plane, rounded_quotient};
 pub(crate) use predicates::{Along, Direction, Geometry, Midpoint, Support, Vertex, VertexDef};

@@ -93,7 +93,13 @@ struct Part {
 
 impl Part {
     /// Half-edges lead along the carrier or back; those of a loop lead from the smaller vertex to the larger or back.
-    fn push_face(&mut self, ends: &[[u32; 2]], subdivision: &Subdivision, face: usize, column: &mut Vec<u32>) {
+    fn push_face(
+        &mut self,
+        ends: &[[u32; 2]],
+        subdivision: &Subdivision,
+        face: usize,
+        column: &mut Vec<u32>,
+    ) {
         let turned = |h: u32| {
             let [a, b] = ends[(h / 2) as usize];
             if a < b { h } else { h ^ 1 }

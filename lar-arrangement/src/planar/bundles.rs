@@ -76,7 +76,7 @@ impl Bundles {
     }
 
     /// A tree of some carriers with those of a bundle side by side, by slope.
-    pub(crate) fn tree(&self, carriers: &Carriers, mut items: Vec<u32>) -> BoxTree {
+    pub(crate) fn tree(&self, carriers: &Carriers, mut items: Vec<u32>) -> BoxTree<2> {
         items.sort_unstable();
         let mut first = vec![u32::MAX; self.n as usize];
         for &item in items.iter().rev().filter(|&&item| self.of(item) != NO_GROUP) {
@@ -144,7 +144,9 @@ mod tests {
             let items: Vec<u32> = (0..n).collect();
             let mut found = sample_first(&items);
             let sampled = n_sampled(items.len());
-            assert!(found[..sampled * WIDTH].chunks(WIDTH).all(|b| b[0] as usize / WIDTH % SAMPLE == SAMPLE / 2));
+            assert!(
+                found[..sampled * WIDTH].chunks(WIDTH).all(|b| b[0] as usize / WIDTH % SAMPLE == SAMPLE / 2)
+            );
             assert!(found[sampled * WIDTH..].is_sorted());
             found.sort_unstable();
             assert_eq!(found, items);

@@ -45,10 +45,15 @@ impl Carriers {
     /// `snapped` are the grid positions of the drawing's points. O(n log n).
     pub(crate) fn new(drawing: &Drawing, snapped: &[[i64; 2]]) -> Self {
         let (points, point_of) = unify(snapped);
-        let segments = sorted_segments(drawing, &points, &point_of);
-        drop(point_of);
-        let mut out = Self { points, ..Self::default() };
-        out.push_lines(&segments);
+        let segment = |input: u32| {
+            let ends = drawing.segments[input as usize].map(|p| point_of[p as usize]);
+            Segment::new(ends, input, &points)
+        };
+        let inputs = sorted_inputs(drawing.segments.len(), &segment, &points);
+        let mut out = Self::default();
+        out.push_lines(inputs.iter().map(|&input| segment(input)), &points);
+        drop(inputs);
+        out.points = points;
         out.number_in_space();
         parallel::sort_distinct_by(&mut out.members, |a, b| a.input.cmp(&b.input));
         out
@@ -57,9 +62,7 @@ impl Carriers {
     /// Gives the carriers the numbers of their boxes along the curve.
     fn number_in_space(&mut self) {
         self.positions = self.ends.iter().map(|ends| ends.map(|p| self.points[p as usize])).collect();
-        let boxes = parallel::map(self.ends.len(), |c| self.box_of(c as u32));
-        let order = z_order(&boxes);
-        drop(boxes);
+        let order = z_order(self.ends.len(), |c| self.box_of(c));
         let mut new = vec![0; order.len()];
         for (&old, number) in order.iter().zip(0..) {
             new[old as usize] = number;
@@ -72,28 +75,28 @@ impl Carriers {
     }
 
     /// The box of a carrier.
-    pub(crate) fn box_of(&self, carrier: u32) -> Aabb {
-        Aabb::around(self.at(carrier).map(|[x, y]| [x as f64, y as f64, 0.0]))
+    pub(crate) fn box_of(&self, carrier: u32) -> Aabb<2> {
+        Aabb::around(self.at(carrier).map(|p| p.map(|x| x as f64)))
     }
 
     /// Segments sorted by slope, line, and place along the line → carriers.
-    fn push_lines(&mut self, segments: &[Segment]) {
-        let mut rank = 0;
-        let mut first = 0;
-        for (i, s) in segments.iter().enumerate() {
-            if i > 0 && turn(segments[i - 1].direction, s.direction) != Sign::Zero {
+    fn push_lines(&mut self, segments: impl ExactSizeIterator<Item = Segment>, points: &[[i64; 2]]) {
+        self.ends.reserve(segments.len());
+        self.rank.reserve(segments.len());
+        self.members.reserve(segments.len());
+        let (mut rank, mut first) = (0, 0);
+        let mut last: Option<Segment> = None;
+        for s in segments {
+            if last.is_some_and(|l| l.key != s.key || turn(l.direction, s.direction) != Sign::Zero) {
                 rank += 1;
             }
-            let last = self.ends.last().copied();
-            let continues = i > 0
-                && last.is_some_and(|[_, end]| {
-                    let (end, start) = (self.points[end as usize], self.points[s.ends[0] as usize]);
-                    segments[i - 1].is_in_line(s, &self.points) && start <= end
-                });
-            if continues {
-                let carrier = self.ends.len() - 1;
-                if self.points[s.ends[1] as usize] > self.points[self.ends[carrier][1] as usize] {
-                    self.ends[carrier][1] = s.ends[1];
+            let end = self.ends.last_mut().filter(|[_, end]| {
+                last.is_some_and(|l| l.is_in_line(&s, points))
+                    && points[s.ends[0] as usize] <= points[*end as usize]
+            });
+            if let Some([_, end]) = end {
+                if points[s.ends[1] as usize] > points[*end as usize] {
+                    *end = s.ends[1];
                 }
             } else {
                 self.push_stops(first);
@@ -103,6 +106,7 @@ impl Carriers {
             }
             let carrier = self.ends.len() as u32 - 1;
             self.members.push(Member { input: s.input, carrier, ends: s.ends, reversed: s.reversed });
+            last = Some(s);
         }
         self.push_stops(first);
     }
@@ -140,27 +144,29 @@ pub(crate) fn turn(a: [i64; 2], b: [i64; 2]) -> Sign {
     Sign::from(cross(a, b))
 }
 
-/// The segments with length, by slope, then by line, then along the line.
-fn sorted_segments(drawing: &Drawing, points: &[[i64; 2]], point_of: &[u32]) -> Vec<Segment> {
-    let segment = |input: u32| {
-        let ends = drawing.segments[input as usize].map(|p| point_of[p as usize]);
-        (ends[0] != ends[1]).then(|| Segment::new(ends, input, points))
-    };
-    let keys = parallel::map(drawing.segments.len(), |i| segment(i as u32).map(|s| (s.key, s.input)));
-    let mut keys: Vec<(f64, u32)> = keys.into_iter().flatten().collect();
+/// The input segments with length, by slope, then by line, then along the line.
+fn sorted_inputs(
+    n: usize,
+    segment: &(impl Fn(u32) -> Segment + Sync + Send),
+    points: &[[i64; 2]],
+) -> Vec<u32> {
+    let mut keys = parallel::map(n, |i| (segment(i as u32).key, i as u32));
+    // A segment without length has no slope; that sorts after all numbers.
     parallel::sort_distinct_by(&mut keys, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let sorted = parallel::map(keys.len(), |i| segment(keys[i].1));
-    let mut sorted: Vec<Segment> = sorted.into_iter().flatten().collect();
-    for same in sorted.chunk_by_mut(|a, b| a.key == b.key).filter(|same| same.len() > 1) {
-        parallel::sort_distinct_by(same, |a, b| a.cmp_along_lines(b, points));
+    keys.truncate(keys.partition_point(|(key, _)| !key.is_nan()));
+    for same in keys.chunk_by_mut(|a, b| a.0 == b.0).filter(|same| same.len() > 1) {
+        let mut along: Vec<Segment> = same.iter().map(|&(_, input)| segment(input)).collect();
+        parallel::sort_distinct_by(&mut along, |a, b| a.cmp_along_lines(b, points));
+        same.iter_mut().zip(along).for_each(|(key, s)| key.1 = s.input);
     }
-    sorted
+    keys.into_iter().map(|(_, input)| input).collect()
 }
 
-/// A segment with length, from its lexicographically smaller end.
+/// A segment from its lexicographically smaller end.
 #[derive(Clone, Copy)]
 struct Segment {
-    /// dy / dx, correctly rounded, so equal slopes have equal keys and unequal keys order exactly.
+    /// dy / dx, correctly rounded, so equal slopes have equal keys and unequal keys order exactly. Not a number for a
+    /// segment without length.
     key: f64,
     ends: [u32; 2],
     direction: [i64; 2],
@@ -174,14 +180,20 @@ impl Segment {
         let reversed = b < a;
         let (ends, a, b) = if reversed { ([ends[1], ends[0]], b, a) } else { (ends, a, b) };
         let direction = [b[0] - a[0], b[1] - a[1]];
-        // Adding zero makes −0 and 0 one key.
-        let key =
-            if direction[0] == 0 { f64::INFINITY } else { direction[1] as f64 / direction[0] as f64 + 0.0 };
+        let key = match direction {
+            // With a plus sign: the total order has it after all numbers.
+            [0, 0] => f64::NAN.abs(),
+            [0, _] => f64::INFINITY,
+            // Adding zero makes −0 and 0 one key.
+            [dx, dy] => dy as f64 / dx as f64 + 0.0,
+        };
         Self { key, ends, direction, input, reversed }
     }
 
     fn is_in_line(&self, other: &Self, points: &[[i64; 2]]) -> bool {
-        turn(self.direction, other.direction) == Sign::Zero && self.offset_to(other, points) == 0
+        self.key == other.key
+            && turn(self.direction, other.direction) == Sign::Zero
+            && self.offset_to(other, points) == 0
     }
 
     /// How far the other one's line lies to the left, times the length.

@@ -4,8 +4,8 @@
 //! neighbours: all carriers through the point cross each other there. So no search by position is needed.
 
 use crate::parallel;
-use crate::planar::carriers::Carriers;
 use crate::planar::along::{Along, KEY_ERROR, long_axis};
+use crate::planar::carriers::Carriers;
 use crate::planar::crossings::Crossings;
 use crate::planar::events::{Event, sorted_by_place};
 use crate::union_find::UnionFind;

@@ -24,7 +24,7 @@ pub(crate) struct Crossings {
 ///
 /// A sample is searched in rounds of growing length, so that bundles are known before most pairs are looked at. A
 /// block is paired with what comes after it, so what is left after a round can be laid out anew.
-pub(crate) fn crossings(carriers: &Carriers, tree: &BoxTree) -> Crossings {
+pub(crate) fn crossings(carriers: &Carriers, tree: &BoxTree<2>) -> Crossings {
     let mut out = Crossings::with_stops(carriers);
     let mut bundles = Bundles::of_fans(carriers);
     let mut regrouped = (!bundles.is_empty()).then(|| bundles.tree(carriers, tree.items().to_vec()));
@@ -53,7 +53,7 @@ pub(crate) fn crossings(carriers: &Carriers, tree: &BoxTree) -> Crossings {
 }
 
 /// What is found in some blocks, a chunk of them at a time.
-fn search(carriers: &Carriers, tree: &BoxTree, bundles: &Bundles, blocks: Range<usize>) -> Vec<Part> {
+fn search(carriers: &Carriers, tree: &BoxTree<2>, bundles: &Bundles, blocks: Range<usize>) -> Vec<Part> {
     let ranges = Ranges::new(carriers.ends.len());
     let size = (tree.n_blocks() / 256).clamp(8, 64);
     let (n_chunks, range) = parallel::chunks(blocks.len(), size);
@@ -107,7 +107,7 @@ struct Found {
 
 impl Found {
     /// The pairs of a block, without those in one bundle.
-    fn search(&mut self, carriers: &Carriers, tree: &BoxTree, bundles: &Bundles, block: usize) {
+    fn search(&mut self, carriers: &Carriers, tree: &BoxTree<2>, bundles: &Bundles, block: usize) {
         let first_event = self.events.len();
         tree.pairs_of_block(block, |i, j| {
             self.pairs += 1;
@@ -128,7 +128,8 @@ impl Found {
     fn is_in_bundle(&self, bundles: &Bundles, i: u32, j: u32) -> bool {
         let bundle = bundles.of(i);
         (bundle != NO_GROUP && bundle == bundles.of(j))
-            || (!self.marks.is_empty() && self.marks.get(&i).is_some_and(|mark| self.marks.get(&j) == Some(mark)))
+            || (!self.marks.is_empty()
+                && self.marks.get(&i).is_some_and(|mark| self.marks.get(&j) == Some(mark)))
     }
 
     fn meet(&mut self, carriers: &Carriers, s: u32, t: u32) {

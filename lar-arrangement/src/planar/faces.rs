@@ -4,9 +4,9 @@
 use crate::boxes::{Aabb, BoxTree};
 use crate::kernel::Int;
 use crate::parallel;
+use crate::planar::along::parameter;
 use crate::planar::carriers::{Carriers, cross};
 use crate::planar::chains::{Chains, VertexSource};
-use crate::planar::along::parameter;
 use crate::planar::edges::{Edges, NO_EDGE, Run};
 use crate::subdivision::{Cycles, Subdivision};
 use std::cmp::Ordering;
@@ -16,7 +16,7 @@ pub(crate) struct Embedding<'a> {
     pub carriers: &'a Carriers,
     pub chains: &'a Chains,
     /// Boxes of the carriers.
-    pub tree: &'a BoxTree,
+    pub tree: &'a BoxTree<2>,
     pub edges: &'a Edges,
     /// Rounded positions of the vertices in grid steps.
     pub positions: &'a [[f64; 2]],
@@ -27,14 +27,13 @@ impl Embedding<'_> {
     /// there are several.
     pub(crate) fn subdivision(&self, cycles: Cycles, component_of: &[u32]) -> Subdivision {
         let firsts = self.first_runs(component_of);
-        let start = |run: u32| self.edges.start(&self.edges.runs[run as usize]);
         let outer: Vec<u32> = firsts
             .iter()
             .map(|&run| cycles.of[2 * self.edges.runs[run as usize].first_edge as usize])
             .collect();
         let around = match firsts.len() {
             1 => vec![None],
-            n => parallel::map(n, |i| self.locate(start(firsts[i]))),
+            n => parallel::map(n, |i| self.locate(firsts[i])),
         };
         Subdivision::nested(cycles, &outer, &around)
     }
@@ -80,7 +79,8 @@ impl Embedding<'_> {
     }
 
     /// Where a carrier crosses the horizontal line through a vertex, and a bound on the error: y is off by 2^-13 and
-    /// its difference by 2^-12, which the slope magnifies; the product and the sum add less than 2^-9.
+    /// its difference by 2^-12, which the slope magnifies; the product and the sum add less than 2^-9. The bound
+    /// covers another 2^-13 of the vertex's own rounding.
     fn crossing_x(&self, carrier: u32, y: f64) -> [f64; 2] {
         let [p, _] = self.carriers.at(carrier);
         let d = self.carriers.direction(carrier);
@@ -128,39 +128,64 @@ impl Embedding<'_> {
         self.edges.edge_at[self.chains.offsets[carrier as usize] as usize + n - 1]
     }
 
-    /// For the first vertex of a component: the half-edge on whose left it lies, on the nearest carrier to the left.
-    /// None of the component's own is there.
-    fn locate(&self, vertex: u32) -> Option<u32> {
+    /// For a run that begins at the first vertex of its component: the half-edge on whose left that lies, on the
+    /// nearest carrier to the left. None of the component's own is there.
+    fn locate(&self, run: u32) -> Option<u32> {
+        let run = &self.edges.runs[run as usize];
+        let (vertex, carrier) = (self.edges.start(run), run.carrier);
         let [x, y] = self.positions[vertex as usize];
         let mut nearest: Option<([f64; 2], u32)> = None;
-        let beam = Aabb { lo: [f64::NEG_INFINITY, y - 1.0, 0.0], hi: [x + 1.0, y + 1.0, 0.0] };
-        self.tree.query_leftwards(&beam, |carrier, bound| {
-            let ends = self.carriers.ends[carrier as usize];
-            let [low, high] =
-                ends.map(|p| self.cmp(self.chains.vertex_of_point[p as usize], vertex, 1).is_le());
-            if low != high {
-                let at = self.crossing_x(carrier, y);
+        let mut try_carrier = |carrier: u32| {
+            if let Some(at) = self.crossing_left_of(vertex, carrier) {
                 let is_nearer = |([best, error], n): ([f64; 2], u32)| match at[0] - best {
                     gap if gap.abs() > at[1] + error => gap > 0.0,
                     _ => self.cmp_on_line(carrier, n, vertex).is_gt(),
                 };
-                if nearest.is_none_or(is_nearer)
-                    && self.is_right_of(vertex, carrier, low)
-                    && self.edge_across(carrier, vertex) != NO_EDGE
-                {
+                if nearest.is_none_or(is_nearer) && self.edge_across(carrier, vertex) != NO_EDGE {
                     nearest = Some((at, carrier));
                 }
             }
             // What ends further left cannot be nearer.
-            nearest.map_or(bound, |([best, error], _)| best - error)
-        });
+            nearest.map_or(f64::NEG_INFINITY, |([best, error], _)| best - error)
+        };
+        let beam = Aabb { lo: [f64::NEG_INFINITY, y - 1.0], hi: [x + 1.0, y + 1.0] };
+        // Neighbours in number are neighbours in the plane, and give a first bound.
+        let n = self.carriers.ends.len() as u32;
+        let mut bound = f64::NEG_INFINITY;
+        for near in carrier.saturating_sub(NEAR)..(carrier + NEAR).min(n) {
+            if self.carriers.box_of(near).meets(&beam) {
+                bound = try_carrier(near);
+            }
+        }
+        self.tree.query_leftwards(&beam, bound, |carrier, _| try_carrier(carrier));
         let (_, carrier) = nearest?;
         let edge = self.edge_across(carrier, vertex);
         // The half-edge that leads down has the vertex on its left.
         let rising = self.carriers.direction(carrier)[1] > 0;
         Some(2 * edge + u32::from(rising))
     }
+
+    /// Where a carrier crosses the horizontal line an infinitesimal above a vertex, if it does and the vertex is to
+    /// the right of it.
+    fn crossing_left_of(&self, vertex: u32, carrier: u32) -> Option<[f64; 2]> {
+        let ends = self.carriers.ends[carrier as usize];
+        let [x, y] = self.positions[vertex as usize];
+        let [low, high] = [0, 1].map(|end| match self.carriers.at(carrier)[end][1] as f64 - y {
+            0.0 => self.cmp(self.chains.vertex_of_point[ends[end] as usize], vertex, 1).is_le(),
+            above => above < 0.0,
+        });
+        if low == high {
+            return None;
+        }
+        let at = self.crossing_x(carrier, y);
+        let is_right =
+            if (x - at[0]).abs() > at[1] { x > at[0] } else { self.is_right_of(vertex, carrier, low) };
+        is_right.then_some(at)
+    }
 }
+
+/// So many carriers before and after one are tried first.
+const NEAR: u32 = 8;
 
 /// d × (v − p): `Greater` when a vertex lies left of a carrier's direction, `Less` when right of it.
 pub(crate) fn side_of_carrier(

@@ -8,8 +8,8 @@
 use crate::boxes::{Aabb, BoxTree};
 use crate::kernel::Int;
 use crate::parallel;
-use crate::planar::carriers::cross;
 use crate::planar::along::long_axis;
+use crate::planar::carriers::cross;
 use crate::planar::faces::{exact_vertex, side_of_carrier};
 use crate::planar::query::Query;
 use crate::planar::result::PlanarArrangement;
@@ -31,9 +31,9 @@ pub enum Location {
 #[derive(Debug)]
 pub(super) struct LocationIndex {
     /// Over the rounded boxes of the edges.
-    tree: BoxTree,
+    tree: BoxTree<2>,
     /// Box of everything.
-    bounds: Aabb,
+    bounds: Aabb<2>,
     /// Ends of each edge in the direction of its carrier.
     ends: Vec<[u32; 2]>,
     /// The faces on the right and on the left of each edge, from its smaller vertex to the larger.
@@ -105,8 +105,8 @@ impl LocationIndex {
             if rises == (direction[axis] > 0) { e } else { [e[1], e[0]] }
         };
         let ends: Vec<[u32; 2]> = a.edges().into_iter().enumerate().map(along_carrier).collect();
-        let flat = |p: &[f64]| [p[0], p[1], 0.0];
-        let boxes: Vec<Aabb> =
+        let flat = |p: &[f64]| [p[0], p[1]];
+        let boxes: Vec<Aabb<2>> =
             ends.iter().map(|&ends| Aabb::around(a.end_positions(ends).map(flat))).collect();
         let mut has_edge = vec![false; a.n_vertices()];
         ends.as_flattened().iter().for_each(|&v| has_edge[v as usize] = true);
@@ -175,18 +175,20 @@ impl Locator<'_> {
             return Location::Vertex(VertexId(vertex));
         }
         let [x, y] = query.point;
-        let beam = Aabb { lo: [f64::NEG_INFINITY, y, 0.0], hi: [x, y, 0.0] };
+        let beam = Aabb { lo: [f64::NEG_INFINITY, y], hi: [x, y] };
         let (mut hit, mut nearest) = (None, None);
-        self.index.tree.query_leftwards(&beam, |edge, bound| match self.place(query, edge) {
-            Place::On(location) => {
-                hit = Some(location);
-                f64::INFINITY
+        self.index.tree.query_leftwards(&beam, f64::NEG_INFINITY, |edge, bound| {
+            match self.place(query, edge) {
+                Place::On(location) => {
+                    hit = Some(location);
+                    f64::INFINITY
+                }
+                Place::Left if nearest.is_none_or(|best| self.is_right_of(edge, best)) => {
+                    nearest = Some(edge);
+                    bound.max(self.reach(edge, y))
+                }
+                Place::Left | Place::Elsewhere => bound,
             }
-            Place::Left if nearest.is_none_or(|best| self.is_right_of(edge, best)) => {
-                nearest = Some(edge);
-                bound.max(self.reach(edge, y))
-            }
-            Place::Left | Place::Elsewhere => bound,
         });
         hit.unwrap_or_else(|| Location::Face(FaceId(nearest.map_or(0, |edge| self.face_right_of(edge)))))
     }

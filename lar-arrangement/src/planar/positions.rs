@@ -1,8 +1,9 @@
 //! Rounded positions of the vertices.
 
 use crate::grid::Grid;
-use crate::kernel::{Int, rounded_quotient};
+use crate::kernel::{Fraction, Int, rounded_quotient};
 use crate::parallel;
+use crate::planar::along::parameter;
 use crate::planar::carriers::Carriers;
 use crate::planar::chains::{Chains, VertexSource};
 use crate::planar::faces::exact_crossing;
@@ -12,8 +13,14 @@ pub(crate) fn positions(carriers: &Carriers, chains: &Chains) -> Vec<[f64; 2]> {
     parallel::map(chains.vertices.len(), |v| match chains.vertices[v] {
         VertexSource::Point(p) => carriers.points[p as usize].map(|x| x as f64),
         VertexSource::Crossing([s, t]) => {
-            let (x, w) = exact_crossing(carriers, s, t);
-            x.map(|x| rounded_quotient(&x, &w.into()))
+            let (num, den) = parameter(carriers, s, t);
+            let fraction = Fraction::new(num, den);
+            let ([p, _], d) = (carriers.at(s), carriers.direction(s));
+            let exactly = |k: usize| {
+                let (x, w) = exact_crossing(carriers, s, t);
+                rounded_quotient(&x[k], &w.into())
+            };
+            [0, 1].map(|k| fraction.between(p[k], d[k]).unwrap_or_else(|| exactly(k)))
         }
     })
 }

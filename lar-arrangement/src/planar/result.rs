@@ -135,14 +135,8 @@ impl PlanarArranger {
         let mut stats = Stats::default();
         let mut watch = Watch::start();
         let grid = fitted_grid(drawing)?;
-        let snapped: Vec<[i64; 2]> = drawing
-            .points
-            .iter()
-            .map(|p| {
-                let [x, y, _] = grid.snap([p[0], p[1], 0.0]);
-                [x, y]
-            })
-            .collect();
+        let points = drawing.points.coords();
+        let snapped = parallel::map(drawing.points.len(), |i| grid.snap([points[2 * i], points[2 * i + 1]]));
         let carriers = Carriers::new(drawing, &snapped);
         drop(snapped);
         watch.lap(&mut stats, "carriers");
