@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 
 /// The name of a workload, and its segments as x1, y1, x2, y2.
-pub type Workload = (&'static str, fn() -> Vec<[f64; 4]>);
+pub(crate) type Workload = (&'static str, fn() -> Vec<[f64; 4]>);
 
 /// Random, then overlapping outlines, then degenerate ones.
-pub const WORKLOADS: [Workload; 16] = [
+pub(crate) const WORKLOADS: [Workload; 16] = [
     ("long-1000", || long(1000)),
     ("long-3000", || long(3000)),
     ("short-10k", || short(10_000, 0.02)),
@@ -48,7 +48,8 @@ fn circles(n: usize, radius: f64) -> Vec<[f64; 4]> {
     let mut circle = || {
         let ([x, y], r) = (random.point(), radius * random.unit());
         let corner = |k: u32| TAU * f64::from(k) / 64.0;
-        outline((0..64).map(|k| [x + r * corner(k).cos(), y + r * corner(k).sin()]).collect())
+        let corners = (0..64).map(|k| [x + r * corner(k).cos(), y + r * corner(k).sin()]);
+        outline(&corners.collect::<Vec<_>>())
     };
     (0..n).flat_map(|_| circle()).collect()
 }
@@ -60,7 +61,7 @@ fn rectangles(n: usize, side: f64, turned: bool) -> Vec<[f64; 4]> {
         let ([x, y], [w, h]) = (random.point(), random.point().map(|size| side * size / 2.0));
         let (sin, cos) = if turned { (TAU * random.unit()).sin_cos() } else { (0.0, 1.0) };
         let corners = [[-w, -h], [w, -h], [w, h], [-w, h]];
-        outline(corners.map(|[u, v]| [x + cos * u - sin * v, y + sin * u + cos * v]).to_vec())
+        outline(&corners.map(|[u, v]| [x + cos * u - sin * v, y + sin * u + cos * v]))
     };
     (0..n).flat_map(|_| rectangle()).collect()
 }
@@ -129,7 +130,7 @@ fn near_touching() -> Vec<[f64; 4]> {
     segments
 }
 
-fn outline(corners: Vec<[f64; 2]>) -> Vec<[f64; 4]> {
+fn outline(corners: &[[f64; 2]]) -> Vec<[f64; 4]> {
     let n = corners.len();
     (0..n).map(|i| (corners[i], corners[(i + 1) % n])).map(|([x, y], [z, w])| [x, y, z, w]).collect()
 }

@@ -81,7 +81,7 @@ impl Crossings {
 
     fn push(&mut self, carriers: &Carriers, part: Part) {
         let base = (carriers.points.len() + self.crossings.len()) as u32;
-        self.lots.push(part.lot.from_vertex(base));
+        self.lots.push(part.lot.numbered_from(base));
         self.crossings.extend(part.crossings);
         self.pairs_tested += part.pairs;
     }

@@ -59,7 +59,7 @@ impl Lot {
     }
 
     /// The same with the number of its first crossing.
-    pub(crate) fn from_vertex(self, base: u32) -> Self {
+    pub(crate) fn numbered_from(self, base: u32) -> Self {
         Self { base, ..self }
     }
 
