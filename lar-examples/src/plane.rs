@@ -9,6 +9,7 @@ mod boolean;
 mod color;
 pub mod figures;
 mod file;
+pub mod floor_plan;
 mod input;
 mod picture;
 #[cfg(feature = "viewer")]

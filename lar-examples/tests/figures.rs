@@ -32,19 +32,28 @@ fn committed(name: &str) -> PathBuf {
 /// what other processors and drivers need. `LAR_UPDATE_PICTURES=1` writes the picture.
 #[track_caller]
 fn check_picture(name: &str, image: &Image) {
+    let actual = std::env::temp_dir().join(format!("lar-examples-{name}-actual.png"));
+    image.write_png(&actual).unwrap();
+    check_file(name, &actual);
+    std::fs::remove_file(&actual).unwrap();
+}
+
+/// The same for a PNG file.
+#[track_caller]
+fn check_file(name: &str, actual: &Path) {
     let path = committed(name);
     if std::env::var_os("LAR_UPDATE_PICTURES").is_some() {
-        image.write_png(&path).unwrap();
+        std::fs::copy(actual, &path).unwrap();
     }
-    let (size, expected) = read_png(&path);
-    assert_eq!(size, [image.width(), image.height()], "size of {name}");
-    let differing = differing(image.pixels(), &expected);
-    let allowed = expected.len() / 4 / 1000;
-    if allowed < differing {
-        let actual = std::env::temp_dir().join(format!("lar-examples-{name}-actual.png"));
-        image.write_png(&actual).unwrap();
-        panic!("{name}: {differing} pixels differ, {allowed} may; see {}", actual.display());
-    }
+    let (size, pixels) = read_png(actual);
+    let (expected_size, expected) = read_png(&path);
+    assert_eq!(size, expected_size, "size of {name}");
+    let (differing, allowed) = (differing(&pixels, &expected), expected.len() / 4 / 1000);
+    assert!(
+        differing <= allowed,
+        "{name}: {differing} pixels differ, {allowed} may; see {}",
+        actual.display()
+    );
 }
 
 fn differing(a: &[u8], b: &[u8]) -> usize {
@@ -68,6 +77,54 @@ fn panels_of_the_three_cubes() {
     for figure in figures::figures(&arrangement, &surfaces, SIZE).unwrap() {
         let image = renderer.render(&figure.scene, &figure.view, SIZE[0], SIZE[1]).unwrap();
         check_picture(&format!("figure6{}", figure.panel), &image);
+    }
+}
+
+/// A program's panels on 200 × 200 pixels: the PNGs are the committed pictures, and the SVGs have a path for each face.
+#[track_caller]
+fn check_panels(program: &str, args: &[&str], names: &[&str]) {
+    let has_adapter = renderer().is_some();
+    let place = Place::new();
+    let all = [args, &["--out", "new/pictures", "--size", "200x200"]].concat();
+    let run = place.program(program, &all);
+    assert_eq!(run.code, if has_adapter { 0 } else { 3 }, "{run:?}");
+    for name in names {
+        let svg = place.read(&format!("new/pictures/{name}.svg"));
+        assert!(lar_core::parse_svg(&svg, name, 1.0).is_ok_and(|d| d.named.len() > 3), "{name}");
+        if has_adapter {
+            check_file(name, &place.path(&format!("new/pictures/{name}.png")));
+        }
+    }
+}
+
+#[test]
+fn panels_of_the_planar_figures() {
+    let few = ["--shapes", "7"];
+    check_panels(env!("CARGO_BIN_EXE_figure4"), &few, &["figure4a", "figure4b", "figure4c", "figure4d"]);
+    check_panels(env!("CARGO_BIN_EXE_figure5"), &few, &["figure5a", "figure5b", "figure5c"]);
+    let plan = support::fixture("apartment.svg");
+    check_panels(env!("CARGO_BIN_EXE_floor_plan"), &[plan.to_str().unwrap()], &["floor_plan"]);
+}
+
+#[test]
+fn pictures_of_the_plane_have_the_colors_of_the_svg() {
+    if renderer().is_none() {
+        return;
+    }
+    let place = Place::new();
+    place.write("a.seg", "0 0 8 0\n8 0 8 5\n8 5 0 5\n0 5 0 0\n4 0 4 5\n");
+    for output in ["out.svg", "out.png"] {
+        let run = place.lar(&["plane", "a.seg", "-o", output, "--size", "160x100"]);
+        assert_eq!(run.code, 0, "{run:?}");
+    }
+    let ([width, height], pixels) = read_png(&place.path("out.png"));
+    assert_eq!([width, height], [160, 100]);
+    let svg = place.read("out.svg");
+    for x in [40, 120] {
+        let at = 4 * (50 * 160 + x);
+        let [r, g, b] = [0, 1, 2].map(|k| pixels[at + k]);
+        let color = format!("fill=\"#{r:02x}{g:02x}{b:02x}\"");
+        assert!(svg.contains(&color), "{color} in {svg}");
     }
 }
 
@@ -138,9 +195,19 @@ fn without_an_adapter_the_numbers_are_printed_all_the_same() {
     assert!(run.out.contains("49 vertices") && run.out.contains("2.484154"), "{}", run.out);
     assert_eq!(run.err.lines().count(), 1, "{}", run.err);
     assert!(run.err.contains("mesa-vulkan-drivers"), "{}", run.err);
+    let run = place.run(without_adapter(env!("CARGO_BIN_EXE_figure5")).args(["--out", "pictures"]));
+    assert_eq!((run.code, run.err.lines().count()), (3, 1), "{run:?}");
+    let written =
+        ["figure5a.svg", "figure5b.svg", "figure5c.svg"].map(|name| place.path("pictures").join(name));
+    assert!(written.iter().all(|path| path.exists()), "{:?}", place.files());
     let before = place.files();
     let run =
         place.run(without_adapter(env!("CARGO_BIN_EXE_lar")).args(["render", "a.obj", "-o", "out.png"]));
+    assert_eq!((run.code, run.out.as_str(), run.err.lines().count()), (3, "", 1), "{run:?}");
+    place.write("a.seg", "0 0 1 0\n1 0 0 1\n0 1 0 0\n");
+    let before = place.files();
+    let drawn = ["plane", "a.seg", "-o", "out.png", "--json", "out.json"];
+    let run = place.run(without_adapter(env!("CARGO_BIN_EXE_lar")).args(drawn));
     assert_eq!((run.code, run.out.as_str(), run.err.lines().count()), (3, "", 1), "{run:?}");
     assert_eq!(place.files(), before);
 }

@@ -195,6 +195,24 @@ fn refusals() {
 }
 
 #[test]
+fn floor_plans() {
+    let place = place();
+    let plan = |args: &[&str]| {
+        let run = place.program(env!("CARGO_BIN_EXE_floor_plan"), args);
+        format!("{}{}", run.out, run.err)
+    };
+    let apartment = fixture("apartment.svg");
+    place.write("no_walls.svg", "<svg><rect id='house' width='1' height='1'/></svg>");
+    let said = [
+        plan(&[apartment.to_str().expect("a path of UTF-8")]),
+        plan(&["plan.svg", "--unit", "0.1"]),
+        plan(&["no_walls.svg"]),
+        plan(&["missing.svg"]),
+    ];
+    insta::assert_snapshot!(said.join("\n"));
+}
+
+#[test]
 fn figures_print_the_numbers() {
     let place = Place::new();
     let programs = [env!("CARGO_BIN_EXE_figure4"), env!("CARGO_BIN_EXE_figure5")];

@@ -33,7 +33,8 @@ impl Polygons {
                 })
                 .sum::<f64>()
         };
-        self.polygons.iter().flatten().map(twice).sum::<f64>() / 2.0
+        // The sum of nothing is minus zero.
+        self.polygons.iter().flatten().map(twice).sum::<f64>() / 2.0 + 0.0
     }
 }
 

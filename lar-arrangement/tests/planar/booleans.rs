@@ -5,7 +5,7 @@ use crate::common::Random;
 use crate::fraction::{Fraction, Point, point};
 use crate::oracle::{Directed, Oracle, Segment, winding};
 use lar_arrangement::planar::{Dangling, Drawing, PlanarArrangement, Polygons};
-use lar_arrangement::{BooleanError, Expression, FillRule};
+use lar_arrangement::{BooleanError, Closure, Expression, FillRule};
 use lar_core::{FaceId, Points};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -163,4 +163,46 @@ fn what_bounds_nothing_is_refused() {
     let no_such = Expression::parse("A | B", &NAMES).expect("an expression");
     let refused = a.boolean(&no_such, FillRule::NonZero);
     assert_eq!(refused, Err(BooleanError::NoSuchSolid { solid: 1, n_solids: 1 }));
+}
+
+/// What a single region of loose segments bounds, dangling edges kept, and its area by parity if it bounds any.
+#[track_caller]
+fn check_outline(segments: &[[f64; 4]], closure: Closure, area: Option<f64>) {
+    let mut drawing = Drawing::new(Points::new(2));
+    let region = drawing.push_region("A", []);
+    for s in segments {
+        let ends = [[s[0], s[1]], [s[2], s[3]]].map(|p| drawing.push_point(p));
+        drawing.push_region_segment(region, ends);
+    }
+    let a = arranged(&drawing, Dangling::Keep);
+    assert_eq!(a.closure(region), closure, "{segments:?}");
+    let found = a.boolean(&Expression::solid(region), FillRule::EvenOdd);
+    assert_eq!(found.ok().map(|polygons| polygons.area()), area, "{segments:?}");
+}
+
+#[test]
+fn outlines_of_loose_segments() {
+    let square = [[0., 0., 2., 0.], [2., 0., 2., 2.], [2., 2., 0., 2.], [0., 2., 0., 0.]];
+    let turned = [square[0], [2., 2., 2., 0.], square[2], square[3]];
+    check_outline(&square, Closure::Closed, Some(4.0));
+    check_outline(&turned, Closure::Unoriented, Some(4.0));
+    check_outline(&square[..3], Closure::Open, None);
+    check_outline(&[square[0]], Closure::Open, None);
+    check_outline(&[square[0], [2., 0., 0., 0.]], Closure::Closed, Some(0.0));
+    let antenna = [square.as_slice(), &[[2., 2., 3., 3.]]].concat();
+    check_outline(&antenna, Closure::Open, None);
+    let crossed = [square.as_slice(), &square.map(|s| s.map(|x| x + 1.0))].concat();
+    check_outline(&crossed, Closure::Closed, Some(6.0));
+}
+
+#[test]
+fn unions_of_faces() {
+    let square = |x: i64| vec![[x, 0], [x + 2, 0], [x + 2, 2], [x, 2]];
+    let a = arranged(&drawing(&[vec![square(0)], vec![square(1)], vec![square(5)]]), Dangling::Drop);
+    let all: Vec<FaceId> = (0..=a.n_faces() as u32).map(FaceId).collect();
+    let union = a.polygons_of(&all);
+    assert_eq!((union.polygons.len(), union.points.len(), union.area()), (2, 8, 10.0));
+    assert!(a.polygons_of(&[]).polygons.is_empty());
+    let windings: Vec<usize> = all.iter().map(|&face| a.windings(face).len()).collect();
+    assert_eq!(windings.iter().sum::<usize>(), 5, "two faces in one region, one in two, one in another");
 }

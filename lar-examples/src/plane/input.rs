@@ -36,7 +36,7 @@ pub(crate) struct Shape {
     /// How its inside is told: as its drawing says, by parity for segments.
     pub rule: FillRule,
     /// The `id` of the element or of the nearest one around it.
-    id: Option<String>,
+    pub id: Option<String>,
 }
 
 /// Drawings as segments x1, y1, x2, y2, shape by shape.
@@ -125,6 +125,12 @@ impl Shapes {
             }
         }
         Ok(Regions { names: names.names, shapes: names.shapes })
+    }
+
+    /// The shapes of the elements of this `id`.
+    pub(crate) fn of_element(&self, id: &str) -> impl Iterator<Item = &Shape> {
+        let ranges = self.named.iter().filter(move |(_, known, _)| known == id);
+        ranges.flat_map(|(_, _, shapes)| &self.shapes[shapes.clone()])
     }
 
     /// The drawing that a shape is from.

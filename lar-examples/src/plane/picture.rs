@@ -52,7 +52,7 @@ pub type Run = (Vec<[f64; 2]>, bool);
 pub struct PaintedPath {
     /// Name of what it shows: `f1`, `edges`, …
     pub id: String,
-    /// Its runs. The inside of the closed ones together, by parity, is filled.
+    /// Its runs. With a fill the closed ones bound one polygon: its outline, and its holes.
     pub runs: Vec<Run>,
     /// Colour of the inside.
     pub fill: Option<Color>,
@@ -141,7 +141,7 @@ impl Picture {
     #[must_use]
     pub fn outlines(outlines: impl IntoIterator<Item = Vec<[f64; 2]>>) -> Self {
         let outline = |(k, points): (usize, Vec<[f64; 2]>)| {
-            let stroke = Stroke { color: cyclic(k).darker(), width: 2.0 };
+            let stroke = Stroke { color: cyclic(k).darker(), width: 2.4 };
             line(&format!("s{k}"), vec![(points, true)], stroke)
         };
         Self { paths: outlines.into_iter().enumerate().map(outline).collect() }
@@ -152,7 +152,7 @@ impl Picture {
     pub fn polygons(polygons: &Polygons, explode: f64) -> Self {
         let polygon = |(k, loops): (usize, &Vec<Vec<u32>>)| PaintedPath {
             id: format!("p{k}"),
-            runs: loops.iter().map(|cycle| (positions(&polygons.points, cycle), true)).collect(),
+            runs: closed_runs(&polygons.points, loops),
             fill: Some(cyclic(k)),
             stroke: Some(EDGE),
         };
@@ -251,6 +251,25 @@ fn positions(points: &Points, vertices: &[u32]) -> Vec<[f64; 2]> {
     vertices.iter().map(at).collect()
 }
 
+fn closed_runs(points: &Points, loops: &[Vec<u32>]) -> Vec<Run> {
+    loops.iter().map(|cycle| (positions(points, cycle), true)).collect()
+}
+
+/// A path for each polygon, `id1`, `id2`, …, or `id` for a single one.
+pub(super) fn filled<'a>(
+    id: &'a str,
+    polygons: &'a Polygons,
+    fill: Color,
+) -> impl Iterator<Item = PaintedPath> + 'a {
+    let is_single = polygons.polygons.len() == 1;
+    (1..).zip(&polygons.polygons).map(move |(k, loops)| PaintedPath {
+        id: if is_single { id.to_owned() } else { format!("{id}{k}") },
+        runs: closed_runs(&polygons.points, loops),
+        fill: Some(fill),
+        stroke: None,
+    })
+}
+
 fn edge_runs(arrangement: &PlanarArrangement) -> impl Iterator<Item = Run> + '_ {
     let complex = arrangement.complex();
     let edges = (0..arrangement.n_edges()).filter_map(|e| complex.edge_ends(e));
@@ -283,8 +302,7 @@ fn corners(arrangement: &PlanarArrangement) -> Vec<Run> {
 /// The loops that bound a face and, when asked for, the edges that dangle in it.
 fn face_runs(arrangement: &PlanarArrangement, face: usize, dangling: bool) -> Vec<Run> {
     let complex = arrangement.complex();
-    let loops = complex.face_loops(face);
-    let mut runs: Vec<Run> = loops.iter().map(|cycle| (positions(complex.points(), cycle), true)).collect();
+    let mut runs = closed_runs(complex.points(), &complex.face_loops(face));
     if dangling {
         runs.extend(dangling_runs(arrangement, FaceId(face as u32)));
     }

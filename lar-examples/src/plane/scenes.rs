@@ -48,7 +48,7 @@ pub fn rectangles(n: usize, seed: u64) -> Vec<Outline> {
     let mut rectangle = |[x, y]: [f64; 2]| {
         let [width, height, turn] = [(); 3].map(|()| random.unit());
         let (sin, cos) = (TAU * turn).sin_cos();
-        let [w, h] = [width, height].map(|side| 0.05 + 0.2 * side);
+        let [w, h] = [width, height].map(|side| 0.07 + 0.27 * side);
         let corner = |[u, v]: [f64; 2]| [x + w * u * cos - h * v * sin, y + w * u * sin + h * v * cos];
         [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]].map(corner).to_vec()
     };
