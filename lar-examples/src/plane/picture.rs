@@ -329,3 +329,95 @@ fn mean(mut points: Vec<[f64; 2]>) -> [f64; 2] {
     let n = points.len().max(1) as f64;
     points.iter().fold([0.0; 2], |sum, p| [sum[0] + p[0] / n, sum[1] + p[1] / n])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lar_arrangement::planar::{Dangling, Drawing, PlanarArranger};
+
+    fn arrangement(segments: &[[f64; 4]]) -> PlanarArrangement {
+        PlanarArranger::new().dangling(Dangling::Keep).arrange(&Drawing::from_segments(segments)).unwrap()
+    }
+
+    /// The sides of an upright square.
+    fn square(x: f64, y: f64, side: f64) -> [[f64; 4]; 4] {
+        let (u, v) = (x + side, y + side);
+        [[x, y, u, y], [u, y, u, v], [u, v, x, v], [x, v, x, y]]
+    }
+
+    /// Numbers of points of the closed and of the open runs of each path.
+    #[track_caller]
+    fn check_runs(picture: &Picture, expected: &[(&str, &[usize], &[usize])]) {
+        let sizes = |path: &PaintedPath, closed| -> Vec<usize> {
+            path.runs.iter().filter(|run| run.1 == closed).map(|run| run.0.len()).collect()
+        };
+        let found: Vec<(&str, Vec<usize>, Vec<usize>)> =
+            picture.paths.iter().map(|p| (p.id.as_str(), sizes(p, true), sizes(p, false))).collect();
+        let expected: Vec<_> = expected.iter().map(|(id, c, o)| (*id, c.to_vec(), o.to_vec())).collect();
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn holes_and_dangling_edges_belong_to_their_face() {
+        let inner = [[6., 6., 7., 7.]];
+        let outer = [[10., 10., 12., 12.]];
+        let all = [&square(0., 0., 10.)[..], &square(1., 1., 3.), &inner, &outer].concat();
+        let a = arrangement(&all);
+        let outside = ("edges", &[][..], &[2][..]);
+        check_runs(&Picture::partition(&a, 2.0), &[("f1", &[4, 4], &[2]), ("f2", &[4], &[]), outside]);
+        let (edges, corners) = (("edges", &[][..], &[2; 10][..]), ("vertices", &[][..], &[1; 11][..]));
+        check_runs(&Picture::partition(&a, 1.0), &[("f1", &[4, 4], &[]), ("f2", &[4], &[]), edges, corners]);
+        check_runs(&Picture::cycles(&a, 2.0), &[("f1", &[4, 4], &[2]), ("f2", &[4], &[])]);
+    }
+
+    #[test]
+    fn explosions_are_rigid_and_about_the_middle() {
+        let a = arrangement(&[square(0., 0., 2.), square(2., 0., 2.)].concat());
+        let [plain, exploded] = [1.0, 3.0].map(|factor| Picture::partition(&a, factor));
+        for (before, after) in plain.paths.iter().zip(&exploded.paths).take(2) {
+            let [p, q] = [before, after].map(|path| mean(path.runs[0].0.clone()));
+            assert_eq!(q, [2.0 + 3.0 * (p[0] - 2.0), p[1]]);
+            for (x, y) in before.runs[0].0.iter().zip(&after.runs[0].0) {
+                assert_eq!([y[0] - x[0], y[1] - x[1]], [q[0] - p[0], q[1] - p[1]]);
+            }
+        }
+        assert_eq!(plain.clone().exploded(1.0), plain);
+        assert_eq!(Picture::default().exploded(2.0), Picture::default());
+    }
+
+    #[test]
+    fn smooth_curves_have_no_dots() {
+        let circle = |n: u32| -> Vec<[f64; 4]> {
+            let at = |k: u32| (std::f64::consts::TAU * f64::from(k) / f64::from(n)).sin_cos();
+            (0..n).map(|k| [at(k).0, at(k).1, at(k + 1).0, at(k + 1).1]).collect()
+        };
+        for (n, dots) in [(6, 6), (20, 20), (30, 0), (64, 0)] {
+            assert_eq!(corners(&arrangement(&circle(n))).len(), dots, "{n}");
+        }
+        let crossed = [circle(64), vec![[-2.0, 0.3, 2.0, 0.4]]].concat();
+        assert_eq!(corners(&arrangement(&crossed)).len(), 4, "two crossings, two ends");
+    }
+
+    #[test]
+    fn fragments_have_the_colors_of_their_shapes() {
+        let a = arrangement(&[square(0., 0., 2.), square(1., 1., 2.)].concat());
+        let picture = Picture::fragments(&a, &[4, 4], 1.5);
+        let of = |k: usize| {
+            let color = cyclic(k).darker();
+            picture.paths.iter().filter(|path| path.stroke.is_some_and(|s| s.color == color)).count()
+        };
+        assert_eq!([picture.paths.len(), of(0), of(1)], [12, 6, 6]);
+    }
+
+    #[test]
+    fn frames_hold_the_picture() {
+        let picture = Picture::outlines([vec![[0., 0.], [30., 0.], [30., 10.]]]);
+        let wide = picture.frame([300, 100]);
+        assert!(wide.lo[0] < 0.0 && 30.0 < wide.hi[0] && 10.0 < wide.hi[1]);
+        assert!((wide.hi[0] - wide.lo[0]) / wide.per_pixel <= 300.0);
+        assert!((picture.frame([100, 300]).hi[0] - picture.frame([100, 300]).lo[0]) > 30.0);
+        let empty = Picture::default().frame([100, 100]);
+        assert!(empty.per_pixel > 0.0 && empty.lo[0] < empty.hi[0]);
+        assert!(Picture::default().to_svg([100, 100]).ends_with("</svg>\n"));
+    }
+}
