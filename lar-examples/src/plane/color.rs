@@ -1,6 +1,6 @@
 //! Colours of faces: neighbours never have the same.
 
-use super::picture::Color;
+use super::picture::{Color, mean, positions};
 use lar_arrangement::planar::PlanarArrangement;
 
 /// Light enough that dark edges stand out on every one of them.
@@ -25,7 +25,8 @@ pub(super) fn cyclic(number: usize) -> Color {
 ///
 /// Faces are coloured in the reverse of an order in which each has at most five neighbours among those after it, which
 /// every planar graph has (Matula, Beck, *Smallest-last ordering*, 1983), so that six colours would do; each takes the
-/// first free one from its number on. O(n).
+/// first free one from its rank on. Ranks go by position, so that colours do not depend on how faces are numbered.
+/// O(n log n).
 ///
 /// ```
 /// use lar_arrangement::planar::{Drawing, planar_arrangement};
@@ -36,22 +37,41 @@ pub(super) fn cyclic(number: usize) -> Color {
 /// ```
 #[must_use]
 pub fn face_colors(arrangement: &PlanarArrangement) -> Vec<Color> {
-    let neighbors = neighbors(arrangement);
+    let ranks = ranks(arrangement);
+    let neighbors = neighbors(arrangement, &ranks);
     let mut numbers = vec![usize::MAX; neighbors.len()];
     for &face in smallest_last(&neighbors).iter().rev() {
         let is_free = |number: &usize| neighbors[face].iter().all(|&other| numbers[other] != *number);
-        let wanted = (face..face + COLORS.len()).map(|number| number % COLORS.len());
-        numbers[face] = wanted.clone().find(is_free).expect("five neighbours leave four of nine colours");
+        let mut wanted = (face..face + COLORS.len()).map(|number| number % COLORS.len());
+        numbers[face] = wanted.find(is_free).expect("five neighbours leave four of nine colours");
     }
-    numbers.into_iter().map(cyclic).collect()
+    ranks.into_iter().map(|rank| cyclic(numbers[rank])).collect()
 }
 
-/// The faces beside each face, once each.
-fn neighbors(arrangement: &PlanarArrangement) -> Vec<Vec<usize>> {
+/// The place of each face in the order of the means of their vertices, the exterior first.
+fn ranks(arrangement: &PlanarArrangement) -> Vec<usize> {
+    let complex = arrangement.complex();
+    let key = |face: usize| {
+        let vertices = complex.face_loops(face).concat();
+        (mean(positions(complex.points(), &vertices)), vertices.len())
+    };
+    let keys: Vec<([f64; 2], usize)> = (1..=arrangement.n_faces()).map(key).collect();
+    let mut order: Vec<usize> = (0..keys.len()).collect();
+    order.sort_by(|&a, &b| {
+        let ((p, m), (q, n)) = (keys[a], keys[b]);
+        p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])).then(m.cmp(&n))
+    });
+    let mut ranks = vec![0; keys.len() + 1];
+    order.into_iter().enumerate().for_each(|(rank, face)| ranks[face + 1] = rank + 1);
+    ranks
+}
+
+/// The ranks of the faces beside each face, by its rank, once each.
+fn neighbors(arrangement: &PlanarArrangement, ranks: &[usize]) -> Vec<Vec<usize>> {
     let mut sides = vec![[usize::MAX; 2]; arrangement.n_edges()];
     for (face, column) in arrangement.complex().boundary(2).outer_iterator().enumerate() {
         for (edge, &sign) in column.iter() {
-            sides[edge][usize::from(sign > 0)] = face;
+            sides[edge][usize::from(sign > 0)] = ranks[face];
         }
     }
     let mut neighbors = vec![Vec::new(); arrangement.n_faces() + 1];
@@ -108,7 +128,8 @@ mod tests {
                 let arrangement = planar_arrangement(&scenes::drawing(&outlines)).unwrap();
                 let colors = face_colors(&arrangement);
                 assert_eq!(colors.len(), arrangement.n_faces() + 1);
-                for (face, beside) in neighbors(&arrangement).iter().enumerate() {
+                let in_place: Vec<usize> = (0..colors.len()).collect();
+                for (face, beside) in neighbors(&arrangement, &in_place).iter().enumerate() {
                     assert!(
                         beside.iter().all(|&other| colors[other] != colors[face]),
                         "seed {seed}, face {face}"
@@ -119,9 +140,24 @@ mod tests {
     }
 
     #[test]
+    fn colors_do_not_depend_on_the_order_of_the_input() {
+        let mut outlines = scenes::rectangles(30, 2);
+        let colored = |outlines: &[scenes::Outline]| {
+            let arrangement = planar_arrangement(&scenes::drawing(outlines)).unwrap();
+            let ranks = ranks(&arrangement);
+            let mut colors: Vec<(usize, Color)> = ranks.into_iter().zip(face_colors(&arrangement)).collect();
+            colors.sort_unstable();
+            colors
+        };
+        let before = colored(&outlines);
+        outlines.reverse();
+        assert_eq!(colored(&outlines), before);
+    }
+
+    #[test]
     fn each_node_has_few_neighbors_after_it() {
         let arrangement = planar_arrangement(&scenes::drawing(&scenes::rectangles(200, 5))).unwrap();
-        let neighbors = neighbors(&arrangement);
+        let neighbors = neighbors(&arrangement, &ranks(&arrangement));
         let order = smallest_last(&neighbors);
         let mut place = vec![0; order.len()];
         order.iter().enumerate().for_each(|(i, &node)| place[node] = i);

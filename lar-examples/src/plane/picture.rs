@@ -246,7 +246,7 @@ fn line(id: &str, runs: Vec<Run>, stroke: Stroke) -> PaintedPath {
     PaintedPath { id: id.to_owned(), runs, fill: None, stroke: Some(stroke) }
 }
 
-fn positions(points: &Points, vertices: &[u32]) -> Vec<[f64; 2]> {
+pub(super) fn positions(points: &Points, vertices: &[u32]) -> Vec<[f64; 2]> {
     let at = |&v: &u32| [0, 1].map(|k| points.point(v as usize)[k]);
     vertices.iter().map(at).collect()
 }
@@ -323,7 +323,7 @@ fn dangling_runs(arrangement: &PlanarArrangement, face: FaceId) -> Vec<Run> {
 }
 
 /// Mean of the distinct points.
-fn mean(mut points: Vec<[f64; 2]>) -> [f64; 2] {
+pub(super) fn mean(mut points: Vec<[f64; 2]>) -> [f64; 2] {
     points.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     points.dedup();
     let n = points.len().max(1) as f64;
