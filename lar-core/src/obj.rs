@@ -3,8 +3,8 @@
 mod read;
 mod write;
 
-pub(crate) use read::utf8;
 pub use read::{ObjGrouping, parse_obj, read_obj};
+pub(crate) use read::{is_utf16, text};
 pub(crate) use write::{write_face, write_number, write_vertices};
 
 use crate::{FaceId, FileError, VertexId};
@@ -23,7 +23,7 @@ pub enum ObjError {
         /// The file.
         file: PathBuf,
     },
-    /// A line is not UTF-8 text.
+    /// The text is UTF-16.
     #[error("{}:{line}: not UTF-8 text", .file.display())]
     NotUtf8 {
         /// The file.

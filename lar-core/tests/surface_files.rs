@@ -139,6 +139,53 @@ fn check_refused(text: &str, name: &str, expected: &str) {
     assert_eq!(found, format!("{name}: {expected}"));
 }
 
+/// CAD programs write one header a solid, also in the binary form.
+#[test]
+fn several_solids_in_one_binary_file() {
+    let ball = icosphere(0).to_bytes(MeshFormat::StlBinary).unwrap();
+    let mut other = ball.clone();
+    // The x coordinates of all corners moved, so that nothing is welded across.
+    for corner in (0..20).flat_map(|f| (0..3).map(move |k| 84 + 50 * f + 12 * (k + 1))) {
+        let x = f32::from_le_bytes(other[corner..corner + 4].try_into().unwrap());
+        other[corner..corner + 4].copy_from_slice(&(x + 4.0).to_le_bytes());
+    }
+    let both = parse_surface(&[&ball[..], &other].concat(), "a.stl").unwrap();
+    assert_eq!((both.format, both.surface.n_faces()), (MeshFormat::StlBinary, 40));
+    assert_eq!(both.surface.points.len(), 24);
+    let refused = |bytes: Vec<u8>| parse_surface(&bytes, "a.stl").unwrap_err().to_string();
+    let cut = refused([&ball[..], &other[..1000]].concat());
+    assert_eq!(
+        cut,
+        "a.stl: byte 1164: 20 facets are announced, which takes 2168 bytes, but the file has 2084"
+    );
+    // A second header without facets, with and without bytes behind it.
+    let empty = [0; 84];
+    assert!(refused([&ball[..], &empty].concat()).contains("byte 80: 20 facets are announced"));
+    assert!(refused([&ball[..], &empty, &ball[84..]].concat()).contains("byte 1164: 0 facets are announced"));
+}
+
+/// Names and comments in Latin-1; the mark that some editors put before UTF-8; UTF-16 by its mark.
+#[test]
+fn encodings_of_text() {
+    let stl = "solid gr\u{fc}n\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n\
+               endloop\nendfacet\nendsolid gr\u{fc}n\n";
+    let off = "OFF # gr\u{fc}n\n3 1 0\n0 0 0\n1 0 0 # gr\u{fc}n\n0 1 0\n3 0 1 2\n";
+    let ply = HEADER.replace("1.0\n", "1.0\ncomment gr\u{fc}n\n") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    for (text, file) in [(stl, "a.stl"), (off, "a.off"), (&ply[..], "a.ply")] {
+        let latin: Vec<u8> = text.chars().map(|c| u8::try_from(c).unwrap()).collect();
+        let marked = [b"\xef\xbb\xbf", text.as_bytes()].concat();
+        for bytes in [&latin, &marked] {
+            let read = parse_surface(bytes, file).unwrap_or_else(|e| panic!("{e}"));
+            assert_eq!((read.surface.n_faces(), read.surface.points.len()), (1, 3), "{file}");
+        }
+        let wide: Vec<u8> = format!("\u{feff}{text}").encode_utf16().flat_map(u16::to_le_bytes).collect();
+        assert!(parse_surface(&wide, file).is_err(), "{file}");
+    }
+    let wide: Vec<u8> = "\u{feff}OFF\n3 1 0\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let refused = parse_surface(&wide, "a.off").unwrap_err();
+    assert_eq!(refused.to_string(), "a.off: line 1: not UTF-8 text");
+}
+
 #[test]
 fn refusals_of_stl() {
     let stl = |text: &str, expected: &str| check_refused(text, "a.stl", expected);

@@ -32,7 +32,7 @@ pub enum Problem {
         /// What is missing.
         expected: &'static str,
     },
-    /// The text is not UTF-8.
+    /// The text is UTF-16.
     #[error("not UTF-8 text")]
     NotUtf8,
     /// Something else stands where a word or number is needed.

@@ -5,11 +5,11 @@ use super::error::MeshFileError;
 use super::error::Problem;
 use super::polygons::PolygonMesh;
 use super::precision::{Digits, Precision};
-use super::source::Source;
+use super::source::{MARK, Source};
 use super::weld::Weld;
 use super::{gltf, off, ply, polygons, stl};
 use crate::atomic_write::read;
-use crate::obj::utf8;
+use crate::obj::text;
 use crate::{FileError, ObjGrouping, Surface, atomic_write, parse_obj};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Cursor, Read, Write};
@@ -138,7 +138,7 @@ pub fn parse_surface(bytes: &[u8], file: impl AsRef<Path>) -> Result<SurfaceFile
     if format != MeshFormat::Obj {
         return read_as(format, &mut source);
     }
-    let surface = only(parse_obj(utf8(bytes, file)?, file, ObjGrouping::Whole)?);
+    let surface = only(parse_obj(&text(bytes, file)?, file, ObjGrouping::Whole)?);
     Ok(SurfaceFile { surface, format, precision: obj_precision(bytes), weld: None })
 }
 
@@ -196,19 +196,20 @@ fn head(input: &mut impl BufRead) -> std::io::Result<Vec<u8>> {
 
 fn detect(head: &[u8], len: u64, file: &Path) -> Result<MeshFormat, MeshFileError> {
     let by_name = MeshFormat::of_path(file);
-    if head.starts_with(b"ply\n") || head.starts_with(b"ply\r") {
+    let text = head.strip_prefix(MARK).unwrap_or(head);
+    if text.starts_with(b"ply\n") || text.starts_with(b"ply\r") {
         return Ok(MeshFormat::PlyText);
     }
     if head.starts_with(b"glTF") || matches!(by_name, Some(MeshFormat::Gltf | MeshFormat::Glb)) {
         return Err(MeshFileError::WriteOnly { file: file.to_owned() });
     }
-    if off::is_header(head) {
+    if off::is_header(text) {
         return Ok(MeshFormat::Off);
     }
     match by_name {
         Some(MeshFormat::StlBinary) => Ok(stl::form(head, len)),
         None if stl::announced(head).is_some_and(|n| stl::binary_len(n) == len) => Ok(MeshFormat::StlBinary),
-        None if head.starts_with(b"solid") => Ok(MeshFormat::StlText),
+        None if text.starts_with(b"solid") => Ok(MeshFormat::StlText),
         Some(format) => Ok(format),
         None => Err(unknown(file)),
     }
@@ -239,7 +240,7 @@ fn only(surfaces: Vec<Surface>) -> Surface {
 fn obj_precision(text: &[u8]) -> Precision {
     let mut digits = Digits::default();
     for line in text.split(|&b| b == b'\n') {
-        let Ok(line) = str::from_utf8(line) else { continue };
+        let Ok(line) = str::from_utf8(line.strip_prefix(MARK).unwrap_or(line)) else { continue };
         let mut words = line.split_ascii_whitespace();
         if words.next() == Some("v") {
             words.take(3).for_each(|word| digits.note(word));

@@ -3,6 +3,7 @@
 use super::error::{MeshFileError, Place, Problem};
 use super::precision::Digits;
 use crate::FileError;
+use crate::obj::is_utf16;
 use std::io::{self, BufRead};
 use std::path::Path;
 
@@ -59,6 +60,9 @@ impl At<'_> {
         if n < u32::MAX as usize { Ok(()) } else { Err(self.error(Problem::TooLarge)) }
     }
 }
+
+/// What some editors put before UTF-8 text.
+pub(crate) const MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// The first characters of what may be a line of megabytes.
 pub(crate) fn clip(text: &str) -> String {
@@ -133,13 +137,20 @@ impl<'a> Source<'a> {
         Err(self.at_line().error(Problem::Ends { expected }))
     }
 
-    /// Takes the next line into the buffer; false at the end of the file.
+    /// Takes the next line into the buffer; false at the end of the file. Names and comments may be in any encoding
+    /// that agrees with ASCII: what is not UTF-8 in them reads as U+FFFD.
     fn advance(&mut self) -> Result<bool, MeshFileError> {
         self.buffer.clear();
         let read = self.input.read_until(b'\n', &mut self.buffer);
         let n = read.map_err(|source| self.failure(source))?;
         self.offset += n as u64;
         self.line += u64::from(n > 0);
+        if self.line == 1 && self.buffer.starts_with(MARK) {
+            self.buffer.drain(..MARK.len());
+        }
+        if str::from_utf8(&self.buffer).is_err() && !(self.line == 1 && is_utf16(&self.buffer)) {
+            self.buffer = String::from_utf8_lossy(&self.buffer).into_owned().into_bytes();
+        }
         Ok(n > 0)
     }
 

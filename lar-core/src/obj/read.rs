@@ -2,7 +2,8 @@
 //!
 //! Read are `v`, `f`, `g`, `o`, comments and lines continued by a backslash; other statements (normals,
 //! textures, materials, lines, curves) say nothing about polygons and are passed over. Corners keep their
-//! vertex only. A face may name vertices that come further down.
+//! vertex only. A face may name vertices that come further down. Names and comments may be in any encoding that
+//! agrees with ASCII: what is not UTF-8 in them reads as U+FFFD.
 
 use super::ObjError;
 use crate::atomic_write::read;
@@ -26,19 +27,24 @@ pub enum ObjGrouping {
 /// Reads an OBJ file. All faces have coefficient +1. O(size of the file).
 ///
 /// # Errors
-/// When the file cannot be read, is not UTF-8, has no faces or a malformed line; see [`ObjError`].
+/// When the file cannot be read, is UTF-16, has no faces or a malformed line; see [`ObjError`].
 pub fn read_obj(path: impl AsRef<Path>, grouping: ObjGrouping) -> Result<Vec<Surface>, ObjError> {
     let path = path.as_ref();
     let bytes = read(path)?;
-    parse_obj(utf8(&bytes, path)?, path, grouping)
+    parse_obj(&text(&bytes, path)?, path, grouping)
 }
 
-/// The bytes as text, or the line at which they are none.
-pub(crate) fn utf8<'b>(bytes: &'b [u8], file: &Path) -> Result<&'b str, ObjError> {
-    str::from_utf8(bytes).map_err(|e| {
-        let line = 1 + bytes[..e.valid_up_to()].iter().filter(|&&b| b == b'\n').count();
-        ObjError::NotUtf8 { file: file.to_owned(), line }
-    })
+/// The bytes as text; UTF-16, which has other bytes for `v` and `f`, is refused.
+pub(crate) fn text<'b>(bytes: &'b [u8], file: &Path) -> Result<Cow<'b, str>, ObjError> {
+    if is_utf16(bytes) {
+        return Err(ObjError::NotUtf8 { file: file.to_owned(), line: 1 });
+    }
+    Ok(String::from_utf8_lossy(bytes))
+}
+
+/// Whether the bytes begin with the byte-order mark of UTF-16.
+pub(crate) fn is_utf16(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff")
 }
 
 /// Reads the text of an OBJ file; `file` is for names and messages.
@@ -73,7 +79,7 @@ pub fn parse_obj(
 
 /// The statements with their first lines: comments cut off, continued lines joined.
 fn statements(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
-    let mut lines = (1..).zip(text.lines());
+    let mut lines = (1..).zip(text.strip_prefix('\u{feff}').unwrap_or(text).lines());
     std::iter::from_fn(move || {
         let (number, line) = lines.next()?;
         let Some(start) = continued(line) else { return Some((number, Cow::Borrowed(uncommented(line)))) };
@@ -255,19 +261,14 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// The vertex index of a corner v, v/vt, v//vn or v/vt/vn; the others must be whole numbers where they stand.
+/// The vertex index of a corner v, v/vt, v//vn or v/vt/vn; the others must be whole numbers where they stand, and
+/// exporters write a slash with none behind it.
 fn corner(word: &str) -> Option<i64> {
     let mut parts = word.split('/');
     let vertex = parts.next()?.parse().ok()?;
     let rest: Vec<&str> = parts.collect();
-    let number = |part: &str| part.parse::<i64>().is_ok();
-    match rest[..] {
-        [] => Some(vertex),
-        [vt] if number(vt) => Some(vertex),
-        ["", vn] if number(vn) => Some(vertex),
-        [vt, vn] if number(vt) && number(vn) => Some(vertex),
-        _ => None,
-    }
+    let number = |part: &&str| part.is_empty() || part.parse::<i64>().is_ok();
+    (rest.len() <= 2 && rest.iter().all(number)).then_some(vertex)
 }
 
 #[cfg(test)]
@@ -295,6 +296,7 @@ mod tests {
     #[test]
     fn forms_of_faces() {
         check("f 1 2 3 4", &[&[0, 1, 2, 3]]);
+        check("f 1/ 2/ 3/\nf 1// 2// 4/7/", &[&[0, 1, 2], &[0, 1, 3]]);
         check(
             "f 1/1 2/2 3/3\nf 1//7 3//7 4//7\nf 1/1/1 2/-2/-2 4/4/4",
             &[&[0, 1, 2], &[0, 2, 3], &[0, 1, 3]],
@@ -356,7 +358,7 @@ mod tests {
         check_error("v 0 zero 0", "a.obj:5: \"zero\" is no number");
         check_error("f 1 2", "a.obj:5: a face of 2 vertices where 3 are needed");
         check_error("f", "a.obj:5: a face of 0 vertices where 3 are needed");
-        for corner in ["x", "1/", "1//", "1/x/1", "1/1/1/1", "1.5", "/1"] {
+        for corner in ["x", "1/x", "1/x/1", "1//x", "1/1/1/1", "1///", "1.5", "/1"] {
             check_error(&format!("f 1 2 {corner}"), &format!("a.obj:5: {corner:?} is no corner of a face"));
         }
         check_error("# a\n\nf 1 2 \\\n3 \\\n x", "a.obj:7: \"x\" is no corner of a face");
@@ -368,12 +370,28 @@ mod tests {
         let missing = read_obj(dir.path().join("none.obj"), ObjGrouping::Whole).unwrap_err().to_string();
         assert!(missing.starts_with("cannot read") && missing.contains("none.obj"), "{missing}");
         let path = dir.path().join("latin.obj");
-        std::fs::write(&path, b"v 0 0 0\n# gr\xfcn\n").unwrap();
+        std::fs::write(&path, b"\xff\xfev\0 \0").unwrap();
+        let wide = read_obj(&path, ObjGrouping::Whole).unwrap_err().to_string();
+        assert_eq!(wide, format!("{}:1: not UTF-8 text", path.display()));
+        std::fs::write(&path, b"v 0 0 0\nv 0 \xfc 0\n").unwrap();
         let latin = read_obj(&path, ObjGrouping::Whole).unwrap_err().to_string();
-        assert_eq!(latin, format!("{}:2: not UTF-8 text", path.display()));
+        assert_eq!(latin, format!("{}:2: \"\u{fffd}\" is no number", path.display()));
         std::fs::write(&path, b"").unwrap();
         let empty = read_obj(&path, ObjGrouping::Whole).unwrap_err().to_string();
         assert_eq!(empty, format!("{}: no faces", path.display()));
+    }
+
+    /// Names in Latin-1, and the mark that some editors put before UTF-8.
+    #[test]
+    fn encodings_of_names() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("latin.obj");
+        let lines = b"v 0 0 0\nv 1 0 0\n# gr\xfcn\nv 0 1 0\nusemtl gr\xfcn\ng gr\xfcn\nf 1 2 3\n";
+        for mark in [&b""[..], b"\xef\xbb\xbf"] {
+            std::fs::write(&path, [mark, lines].concat()).unwrap();
+            let surfaces = read_obj(&path, ObjGrouping::Groups).unwrap();
+            assert_eq!((surfaces[0].name.as_str(), surfaces[0].points.len()), ("gr\u{fffd}n", 3));
+        }
     }
 
     proptest! {

@@ -2,7 +2,7 @@
 
 use crate::CommandError;
 use lar_arrangement::{Arrangement, Arranger, Closure, Stats};
-use lar_core::Surface;
+use lar_core::{CellId, Surface};
 use serde::{Serialize, Serializer};
 use std::io::Write;
 use std::num::NonZeroUsize;
@@ -41,19 +41,30 @@ pub(crate) struct Operand {
     file: String,
     faces: usize,
     closure: &'static str,
+    /// Least and greatest winding number in a cell: 0 and 1 when the surface is closed, does not cross itself and its
+    /// faces look outwards.
+    windings: [i32; 2],
+    /// Sum over the cells of winding number times volume: what the divergence theorem gives for the input itself.
+    signed_volume: f64,
 }
 
 impl Operand {
     pub(crate) fn all(arrangement: &Arrangement, operands: &super::input::Operands) -> Vec<Self> {
-        let one = |(solid, (surface, file)): (usize, (&Surface, &std::path::PathBuf))| Self {
-            name: surface.name.clone(),
-            file: file.display().to_string(),
-            faces: surface.n_faces(),
-            closure: match arrangement.closure(solid) {
-                Closure::Closed => "closed",
-                Closure::Unoriented => "unoriented",
-                Closure::Open => "open",
-            },
+        let volumes = arrangement.volumes();
+        let one = |(solid, (surface, file)): (usize, (&Surface, &std::path::PathBuf))| {
+            let windings = || (0..).map(CellId).take(volumes.len()).map(|c| arrangement.winding(c, solid));
+            Self {
+                name: surface.name.clone(),
+                file: file.display().to_string(),
+                faces: surface.n_faces(),
+                closure: match arrangement.closure(solid) {
+                    Closure::Closed => "closed",
+                    Closure::Unoriented => "unoriented",
+                    Closure::Open => "open",
+                },
+                windings: windings().fold([0, 0], |[lo, hi], w| [lo.min(w), hi.max(w)]),
+                signed_volume: windings().zip(&volumes).map(|(w, volume)| f64::from(w) * volume).sum(),
+            }
         };
         operands.surfaces.iter().zip(&operands.files).enumerate().map(one).collect()
     }

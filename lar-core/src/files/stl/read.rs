@@ -4,7 +4,7 @@ use super::{FACET, HEADER};
 use crate::files::error::{MeshFileError, Problem};
 use crate::files::format::{MeshFormat, SurfaceFile};
 use crate::files::precision::{Digits, Precision};
-use crate::files::source::{At, Source};
+use crate::files::source::{At, MARK, Source};
 use crate::files::weld::{Bits, Weld, Welder};
 use crate::{Cells, Surface};
 
@@ -22,6 +22,7 @@ pub(crate) fn binary_len(n: u64) -> u64 {
 /// Text or binary: binary when the length fits the number announced or the beginning is no text.
 pub(crate) fn form(head: &[u8], len: u64) -> MeshFormat {
     let fits = announced(head).is_some_and(|n| binary_len(n) == len);
+    let head = head.strip_prefix(MARK).unwrap_or(head);
     if !fits && head.trim_ascii_start().starts_with(b"solid") && !head.contains(&0) {
         MeshFormat::StlText
     } else {
@@ -29,22 +30,36 @@ pub(crate) fn form(head: &[u8], len: u64) -> MeshFormat {
     }
 }
 
+/// Some exporters write several solids one behind the other, each with a header; they make one surface.
 pub(crate) fn read_binary(source: &mut Source<'_>) -> Result<SurfaceFile, MeshFileError> {
+    let mut facets = Facets::<f32>::new();
+    while facets.corners == 0 || source.rest() > 0 {
+        let announced = header(source)?;
+        facets.reserve(announced as usize);
+        for _ in 0..announced {
+            let at = source.at_byte();
+            let facet: [u8; FACET] = source.bytes("a facet of 50 bytes")?;
+            facets.push(at, [corner(at, &facet, 12)?, corner(at, &facet, 24)?, corner(at, &facet, 36)?])?;
+        }
+        if announced == 0 {
+            break;
+        }
+    }
+    facets.finish(source, MeshFormat::StlBinary, Precision::F32)
+}
+
+/// The number of facets of the next solid. They fill the file, or leave room for one more header at least.
+fn header(source: &mut Source<'_>) -> Result<u32, MeshFileError> {
+    let begin = source.len() - source.rest();
     source.bytes::<HEADER>("an STL header of 84 bytes")?;
     let at = source.at_byte();
     let announced = u32::from_le_bytes(source.bytes("an STL header of 84 bytes")?);
-    let (needed, found) = (binary_len(announced.into()), source.len());
-    if needed != found {
-        let announced = announced.into();
-        return Err(at.error(Problem::Length { what: "facets", announced, needed, found }));
+    let (needed, found) = (begin + binary_len(announced.into()), source.len());
+    let another = announced > 0 && needed.saturating_add(binary_len(1)) <= found;
+    if needed == found || another {
+        return Ok(announced);
     }
-    let mut facets = Facets::<f32>::with_capacity(announced as usize);
-    for _ in 0..announced {
-        let at = source.at_byte();
-        let facet: [u8; FACET] = source.bytes("a facet of 50 bytes")?;
-        facets.push(at, [corner(at, &facet, 12)?, corner(at, &facet, 24)?, corner(at, &facet, 36)?])?;
-    }
-    facets.finish(source, MeshFormat::StlBinary, Precision::F32)
+    Err(at.error(Problem::Length { what: "facets", announced: announced.into(), needed, found }))
 }
 
 fn corner(at: At<'_>, facet: &[u8; FACET], start: usize) -> Result<[f32; 3], MeshFileError> {
@@ -64,7 +79,7 @@ fn corner(at: At<'_>, facet: &[u8; FACET], start: usize) -> Result<[f32; 3], Mes
 /// in one file make one surface.
 pub(crate) fn read_text(source: &mut Source<'_>) -> Result<SurfaceFile, MeshFileError> {
     let mut text = TextReader { state: State::Outside, corners: Vec::new(), digits: Digits::default() };
-    let mut facets = Facets::<f64>::with_capacity(0);
+    let mut facets = Facets::<f64>::new();
     while let Some((at, line)) = source.line()? {
         text.line(at, line, &mut facets)?;
     }
@@ -180,9 +195,13 @@ struct Facets<T> {
 }
 
 impl<T: Bits> Facets<T> {
-    /// Room for `n` facets, which the length of the file has vouched for.
-    fn with_capacity(n: usize) -> Self {
-        Self { welder: Welder::new(), indices: Vec::with_capacity(3 * n), corners: 0 }
+    fn new() -> Self {
+        Self { welder: Welder::new(), indices: Vec::new(), corners: 0 }
+    }
+
+    /// Makes room for `n` more facets, which the length of the file has vouched for.
+    fn reserve(&mut self, n: usize) {
+        self.indices.reserve_exact(3 * n);
     }
 
     fn push(&mut self, at: At<'_>, corners: [[T; 3]; 3]) -> Result<(), MeshFileError> {
