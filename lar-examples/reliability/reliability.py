@@ -63,7 +63,7 @@ def fetch(package, directory):
     command = {
         "pypi": [sys.executable, "-m", "pip", "download", "-q", "--no-deps", f"{name}=={version}"],
         "npm": ["npm", "pack", "--silent", f"{name}@{version}"],
-        "debian": ["apt-get", "download", "-q", name],
+        "debian": ["apt-get", "download", "-q", f"{name}={version}"],
     }[package["registry"]]
     print("fetching", name, flush=True)
     subprocess.run(command, cwd=home, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
