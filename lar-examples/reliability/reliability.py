@@ -156,7 +156,10 @@ def examine(path, lar, work, limit):
     out = {"alone": lar_alone(lar, path, limit)}
     if "closure" not in out["alone"]:
         return out
-    points, triangles = meshes.read(path)
+    try:
+        points, triangles = meshes.read(path)
+    except Exception as error:  # a file that trimesh cannot read is arranged alone only
+        return out | {"unread": repr(error)[:100]}
     meshes.write_ply(work / "A.ply", points, triangles)
     meshes.write_ply(work / "B.ply", meshes.turned(points), triangles)
     out["triangles"] = len(triangles)

@@ -1,15 +1,17 @@
-//! What the arrangement of triangles must be, counted on the convex pieces that their planes make of space.
+//! What the arrangement of convex faces with convex holes must be, counted on the convex pieces that their planes
+//! make of space.
 //!
-//! The planes are those of the triangles and, for each edge of a triangle, one more through the edge: so each wall
-//! lies in a triangle or outside of it. Cells are the pieces joined across walls in no triangle. An edge of a wall
-//! belongs to the skeleton when it lies on an edge of a triangle or walls of two planes that lie in triangles meet
-//! there; a corner is a vertex when edges of the skeleton leave it in two directions or more that are not opposite;
-//! faces are the walls in triangles, joined across all other edges.
+//! The planes are those of the faces and, for each edge of a face, one more through the edge: so each wall lies in a
+//! face or outside of it. Cells are the pieces joined across walls in no face. An edge of a wall belongs to the
+//! skeleton when it lies on an edge of a face or walls of two planes that lie in faces meet there; a corner is a
+//! vertex when edges of the skeleton leave it in two directions or more that are not opposite; faces are the walls
+//! in faces, joined across all other edges.
 
 use super::pieces::{Corner, Piece, Plane, corner, cut_cube, plane_through, side, volume};
 use std::collections::{BTreeMap, BTreeSet};
 
-pub(crate) type Triangle = [[i32; 3]; 3];
+/// A convex loop, and one or none in it that is its hole.
+pub(crate) type Face = Vec<Vec<[i32; 3]>>;
 
 /// Larger than any coordinate of a scene.
 const REACH: i32 = 16;
@@ -22,16 +24,30 @@ pub(crate) struct Expected {
     pub(crate) cells: Vec<(f64, Vec<bool>)>,
 }
 
-/// A triangle's plane, and a plane through each of its edges with the opposite corner on the positive side.
+/// A face's plane, and for the outline and the hole the planes through their edges, positive inside.
 struct Facet {
     plane: usize,
-    edges: [usize; 3],
-    oriented: [Plane; 3],
+    loops: Vec<Vec<Plane>>,
 }
 
 impl Facet {
-    fn contains(&self, planes: &[Plane], point: &Corner) -> bool {
-        side(&planes[self.plane], point) == 0 && self.oriented.iter().all(|e| side(e, point) >= 0)
+    fn in_loop(&self, number: usize, points: &[Corner]) -> bool {
+        let inside = |p: &Corner| self.loops[number].iter().all(|e| side(e, p) >= 0);
+        self.loops.len() > number && points.iter().all(inside)
+    }
+
+    fn contains(&self, planes: &[Plane], points: &[Corner]) -> bool {
+        let in_plane = points.iter().all(|p| side(&planes[self.plane], p) == 0);
+        in_plane && self.in_loop(0, points) && !self.in_loop(1, points)
+    }
+
+    fn has_on_edge(&self, planes: &[Plane], points: &[Corner]) -> bool {
+        let in_plane = points.iter().all(|p| side(&planes[self.plane], p) == 0);
+        let on = |number: usize| {
+            let on_one = |e: &Plane| points.iter().all(|p| side(e, p) == 0);
+            self.in_loop(number, points) && self.loops[number].iter().any(on_one)
+        };
+        in_plane && (0..self.loops.len()).any(on)
     }
 }
 
@@ -50,39 +66,48 @@ impl Planes {
         })
     }
 
-    /// `None` when the triangle has no area. An edge's plane is that of another triangle where one fits.
-    fn facet(&mut self, triangle: &Triangle) -> Option<Facet> {
-        let own = plane_through(triangle[0], triangle[1], triangle[2])?;
+    /// `None` when the face has no area.
+    fn facet(&mut self, face: &Face) -> Option<Facet> {
+        let own = plane_of(&face[0])?;
         let plane = self.number(own);
-        let mut edges = [0; 3];
-        for (k, edge) in edges.iter_mut().enumerate() {
-            let [p, q] = [triangle[k], triangle[(k + 1) % 3]];
+        let loops = face.iter().map(|corners| self.around(corners, plane, &own)).collect();
+        Some(Facet { plane, loops })
+    }
+
+    /// Planes through the edges of a loop; those of other faces where they fit.
+    fn around(&mut self, corners: &[[i32; 3]], plane: usize, own: &Plane) -> Vec<Plane> {
+        let edge = |k: usize| {
+            let [p, q] = [corners[k], corners[(k + 1) % corners.len()]];
             let holds = |number: usize| {
                 number != plane && [p, q].iter().all(|&x| side(&self.list[number], &corner(x)) == 0)
             };
-            *edge = (0..self.list.len()).find(|&n| holds(n)).unwrap_or_else(|| {
+            let number = (0..self.list.len()).find(|&n| holds(n)).unwrap_or_else(|| {
                 let beside = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].into_iter();
                 let tip = beside.map(|d| [0, 1, 2].map(|i| p[i] + d[i]));
-                let mut off = tip.filter(|&t| side(&own, &corner(t)) != 0);
+                let mut off = tip.filter(|&t| side(own, &corner(t)) != 0);
                 let tip = off.next().expect("one axis leaves the plane");
                 self.number(plane_through(p, q, tip).expect("the tip is off the edge"))
             });
-        }
-        let inward = |k: usize| {
-            let across = self.list[edges[k]];
-            if side(&across, &corner(triangle[(k + 2) % 3])) > 0 { across } else { across.map(|x| -x) }
+            let across = self.list[number];
+            let inward = corners.iter().any(|&c| side(&across, &corner(c)) > 0);
+            if inward { across } else { across.map(|x| -x) }
         };
-        Some(Facet { plane, edges, oriented: [0, 1, 2].map(inward) })
+        (0..corners.len()).map(edge).collect()
     }
 }
 
-/// The arrangement of triangles; `solids` are convex, given by the inner sides of planes.
-pub(crate) fn expected(triangles: &[Triangle], solids: &[Vec<Plane>]) -> Expected {
+/// The plane of a convex loop; `None` when it has no area.
+pub(crate) fn plane_of(corners: &[[i32; 3]]) -> Option<Plane> {
+    plane_through(corners[0], corners[1], corners[2])
+}
+
+/// The arrangement of faces; `solids` are convex, given by the inner sides of planes.
+pub(crate) fn expected(faces: &[Face], solids: &[Vec<Plane>]) -> Expected {
     let mut planes = Planes::default();
-    triangles.iter().filter_map(|t| plane_through(t[0], t[1], t[2])).for_each(|p| {
+    faces.iter().filter_map(|f| plane_of(&f[0])).for_each(|p| {
         planes.number(p);
     });
-    let facets: Vec<Facet> = triangles.iter().filter_map(|t| planes.facet(t)).collect();
+    let facets: Vec<Facet> = faces.iter().filter_map(|f| planes.facet(f)).collect();
     let pieces = cut_cube(REACH, &planes.list);
     let walls = Walls::new(&pieces, &facets, &planes.list);
     let cells = walls.cells(&pieces, solids, planes.list.len());
@@ -93,9 +118,9 @@ pub(crate) fn expected(triangles: &[Triangle], solids: &[Vec<Plane>]) -> Expecte
 
 /// The walls between two pieces, by their corners.
 struct Walls {
-    /// Plane, pieces on both sides, whether in a triangle.
+    /// Plane, pieces on both sides, whether in a face.
     of_corners: BTreeMap<Vec<Corner>, (usize, Vec<usize>, bool)>,
-    /// For each edge the walls in triangles at it.
+    /// For each edge the walls in faces at it.
     at_edge: BTreeMap<[Corner; 2], Vec<Vec<Corner>>>,
 }
 
@@ -110,9 +135,7 @@ impl Walls {
                     sides.push(number);
                     continue;
                 }
-                let inside =
-                    |f: &Facet| f.plane == wall.plane && wall.corners.iter().all(|c| f.contains(planes, c));
-                let covered = facets.iter().any(inside);
+                let covered = facets.iter().any(|f| f.contains(planes, &wall.corners));
                 if covered {
                     for (i, &a) in wall.corners.iter().enumerate() {
                         let b = wall.corners[(i + 1) % wall.corners.len()];
@@ -157,11 +180,7 @@ impl Walls {
         let kept = |edge: &[Corner; 2], walls: &[Vec<Corner>]| {
             let plane = |w: &Vec<Corner>| self.of_corners[w].0;
             let crossed = walls.iter().any(|w| plane(w) != plane(&walls[0]));
-            let on_edge = |f: &Facet| {
-                edge.iter().all(|c| f.contains(planes, c))
-                    && f.edges.iter().any(|&e| edge.iter().all(|c| side(&planes[e], c) == 0))
-            };
-            crossed || facets.iter().any(on_edge)
+            crossed || facets.iter().any(|f| f.has_on_edge(planes, edge))
         };
         self.at_edge.iter().filter(|(edge, walls)| kept(edge, walls)).map(|(edge, _)| *edge).collect()
     }
