@@ -7,6 +7,8 @@ import trimesh
 def read(path):
     """Points (n × 3) and triangles (m × 3) of an OBJ, OFF, PLY or STL file; equal points are one point."""
     mesh = trimesh.load(path, process=False, maintain_order=True, force="mesh", skip_materials=True)
+    if len(mesh.faces) == 0:
+        raise ValueError("no triangles")
     return weld(np.asarray(mesh.vertices, float), np.asarray(mesh.faces, np.int64))
 
 

@@ -1,0 +1,308 @@
+//! Random scenes by their seeds: what must not change, does not, and what must agree, agrees.
+//!
+//! `LAR_SCENES` sets the number of scenes of each test, `LAR_SEED` the first of their seeds.
+
+mod common;
+
+use common::{
+    Random, all_counts, arranged, assert_close, cuboid, each_seed, exact_motions, mapped, random_cubes,
+    relabelled, sorted_volumes, surface,
+};
+use lar_arrangement::{Arrangement, Arranger, Detail, Expression, FillRule, SolidComplex, operand_names};
+use lar_core::{CellId, FaceId, Points, Struct, Surface, cuboid_grid, r, s, t, triangular_prism};
+use std::f64::consts::FRAC_PI_2;
+use std::num::NonZeroUsize;
+
+/// Relative to the size of the scene.
+const ROUNDING: f64 = 1e-9;
+
+fn corner(random: &mut Random, size: usize) -> [f64; 3] {
+    [0; 3].map(|_| random.below(size) as f64)
+}
+
+fn tetrahedron(random: &mut Random, size: usize) -> Surface {
+    let points = [0; 4].map(|_| corner(random, size));
+    surface(&points, &[&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[0, 3, 2]])
+}
+
+fn block(random: &mut Random) -> Surface {
+    let lo = corner(random, 4);
+    let size = corner(random, 3);
+    cuboid(lo, [0, 1, 2].map(|k| lo[k] + size[k] + 1.0))
+}
+
+/// A parallelogram with a hole, which a corner or an edge of others is likely to touch.
+fn frame(random: &mut Random) -> Surface {
+    let (p, a, b) = (corner(random, 4), corner(random, 3), corner(random, 3));
+    let at = |i: f64, j: f64| [0, 1, 2].map(|k| p[k] + i * (a[k] - 1.0) + j * (b[k] - 1.0));
+    let quad = |lo: f64, hi: f64| [at(lo, lo), at(hi, lo), at(hi, hi), at(lo, hi)];
+    let mut out = surface(&[quad(0.0, 3.0), quad(1.0, 2.0)].concat(), &[]);
+    out.push_face([&[0u32, 1, 2, 3][..], &[7, 6, 5, 4]], 1);
+    out
+}
+
+fn sheet(random: &mut Random) -> Surface {
+    surface(&[corner(random, 5), corner(random, 5), corner(random, 5)], &[&[0, 1, 2]])
+}
+
+fn mixed_scene(random: &mut Random) -> Vec<Surface> {
+    (0..2 + random.below(3))
+        .map(|_| match random.below(4) {
+            0 => tetrahedron(random, 5),
+            1 => block(random),
+            2 => frame(random),
+            _ => sheet(random),
+        })
+        .collect()
+}
+
+fn json(input: &[Surface], threads: usize) -> String {
+    let threads = NonZeroUsize::new(threads).expect("at least one thread");
+    let a = Arranger::new().threads(threads).arrange(input).expect("finite input");
+    a.complex().to_json().expect("the complex is valid")
+}
+
+#[test]
+fn names_orders_axes_and_threads_do_not_matter() {
+    each_seed(40, |seed| {
+        let random = &mut Random(seed);
+        let input = mixed_scene(random);
+        let a = arranged(&input);
+        assert_eq!(json(&input, 1), json(&input, 3));
+        for (name, variant) in exact_motions(&input).into_iter().chain(relabelled(&input, seed)) {
+            let other = arranged(&variant);
+            assert_eq!(all_counts(&other), all_counts(&a), "{name}");
+            assert_close(&sorted_volumes(&other), &sorted_volumes(&a), ROUNDING, name);
+        }
+    });
+}
+
+/// Integers are kept by snapping, and so is what lies one unit in the last place beside them.
+#[test]
+fn one_unit_in_the_last_place_changes_nothing() {
+    each_seed(150, |seed| {
+        let random = &mut Random(seed);
+        let input = mixed_scene(random);
+        let mut beside = |x: f64| match random.below(4) {
+            0 => x.next_up(),
+            1 => x.next_down(),
+            _ => x,
+        };
+        let other: Vec<Surface> = input.iter().map(|s| with_coordinates(s, &mut beside)).collect();
+        assert_eq!(all_counts(&arranged(&other)), all_counts(&arranged(&input)));
+    });
+}
+
+fn with_coordinates(s: &Surface, map: &mut impl FnMut(f64) -> f64) -> Surface {
+    let mut out = s.clone();
+    out.points = Points::from_columns(3, s.points.coords().iter().map(|&x| map(x)).collect());
+    out
+}
+
+/// A row-major 3 × 4 matrix of integers.
+type Exact = [[f64; 4]; 3];
+
+fn compose(a: &Exact, b: &Exact) -> Exact {
+    let entry = |i: usize, j: usize| {
+        let sum: f64 = (0..3).map(|k| a[i][k] * b[k][j]).sum();
+        sum + if j == 3 { a[i][3] } else { 0.0 }
+    };
+    [0, 1, 2].map(|i| [0, 1, 2, 3].map(|j| entry(i, j)))
+}
+
+/// A hierarchy of moved, doubled, mirrored and quarter-turned blocks and prisms, and its leaves placed by integers.
+fn assembly(random: &mut Random, depth: usize, world: &Exact, leaves: &mut Vec<Surface>) -> Struct {
+    let mut node = Struct::new(format!("level {depth}"));
+    let mut at = *world;
+    for _ in 0..1 + random.below(3) {
+        let (map, exact) = integer_map(random);
+        node.push(map);
+        at = compose(&at, &exact);
+        if depth > 0 && random.below(2) == 0 {
+            node.push(assembly(random, depth - 1, &at, leaves));
+            continue;
+        }
+        let model = if random.below(3) == 0 { triangular_prism() } else { cuboid_grid(&[1, 1, 1]) };
+        let place = |p: [f64; 3]| [0, 1, 2].map(|i| (0..3).map(|k| at[i][k] * p[k]).sum::<f64>() + at[i][3]);
+        leaves.push(mapped(&model.to_surface("leaf").expect("the model has faces"), place));
+        node.push(model);
+    }
+    node
+}
+
+fn integer_map(random: &mut Random) -> (lar_core::Affine, Exact) {
+    let mut exact: Exact = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
+    match random.below(3) {
+        0 => {
+            let by = corner(random, 3);
+            (0..3).for_each(|i| exact[i][3] = by[i]);
+            (t(&by), exact)
+        }
+        1 => {
+            let by = [0; 3].map(|_| [1.0, -1.0, 2.0][random.below(3)]);
+            (0..3).for_each(|i| exact[i][i] = by[i]);
+            (s(&by), exact)
+        }
+        _ => {
+            let (axis, quarters) = (random.below(3), 1 + random.below(3));
+            let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+            let (cos, sin) = [(0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)][quarters - 1];
+            (exact[u][u], exact[u][v], exact[v][u], exact[v][v]) = (cos, -sin, sin, cos);
+            let mut angles = [0.0; 3];
+            angles[axis] = quarters as f64 * FRAC_PI_2;
+            (r(angles), exact)
+        }
+    }
+}
+
+/// The sine of a quarter turn is not exact in floating point; the snapped assembly is.
+#[test]
+fn assemblies_of_quarter_turns_are_exact() {
+    each_seed(60, |seed| {
+        let random = &mut Random(seed);
+        let identity = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
+        let mut leaves = Vec::new();
+        let scene = assembly(random, 3, &identity, &mut leaves);
+        let (placed, exact) = (arranged(&common::surfaces(&scene)), arranged(&leaves));
+        assert_eq!(all_counts(&placed), all_counts(&exact));
+        let volumes = sorted_volumes(&exact);
+        let size = volumes.iter().sum::<f64>();
+        assert_close(&sorted_volumes(&placed), &volumes, ROUNDING * size, "volumes");
+    });
+}
+
+/// An expression as text, and its value in a cell.
+struct Formula {
+    text: String,
+    value: Box<dyn Fn(&[bool]) -> bool>,
+}
+
+fn formula(random: &mut Random, n: usize, depth: usize) -> Formula {
+    if depth == 0 || random.below(4) == 0 {
+        let solid = random.below(n);
+        return Formula { text: operand_names(n)[solid].clone(), value: Box::new(move |x| x[solid]) };
+    }
+    let a = formula(random, n, depth - 1);
+    let kind = random.below(5);
+    if kind == 4 {
+        return Formula { text: format!("!({})", a.text), value: Box::new(move |x| !(a.value)(x)) };
+    }
+    let b = formula(random, n, depth - 1);
+    let operators: [fn(bool, bool) -> bool; 4] =
+        [|a, b| a || b, |a, b| a && b, |a, b| a && !b, |a, b| a != b];
+    let apply = operators[kind];
+    let text = format!("({}) {} ({})", a.text, ['|', '&', '-', '^'][kind], b.text);
+    Formula { text, value: Box::new(move |x| apply((a.value)(x), (b.value)(x))) }
+}
+
+fn closed_scene(random: &mut Random) -> Vec<Surface> {
+    match random.below(3) {
+        0 => random_cubes(2 + random.below(3), random).0,
+        1 => (0..2 + random.below(3)).map(|_| block(random)).collect(),
+        _ => (0..2 + random.below(3)).map(|_| tetrahedron(random, 5)).collect(),
+    }
+}
+
+fn cells(a: &Arrangement, text: &str) -> Vec<CellId> {
+    let names = operand_names(a.n_solids());
+    let expression = Expression::parse(text, &names).expect("the formula is well formed");
+    a.boolean(&expression, FillRule::NonZero).expect("the solids are closed").cells().to_vec()
+}
+
+#[test]
+fn expressions_hold_where_their_formulas_do() {
+    each_seed(100, |seed| {
+        let random = &mut Random(seed);
+        let a = arranged(&closed_scene(random));
+        for _ in 0..3 {
+            let f = formula(random, a.n_solids(), 4);
+            let inside =
+                |cell: CellId| -> Vec<bool> { (0..a.n_solids()).map(|s| a.winding(cell, s) != 0).collect() };
+            let expected: Vec<CellId> =
+                (0..a.n_cells() as u32).map(CellId).filter(|&c| (f.value)(&inside(c))).collect();
+            assert_eq!(cells(&a, &f.text), expected, "{}", f.text);
+            check_surface(&a, &f.text);
+        }
+        let same = [
+            ("A - B", "A & !B"),
+            ("!(A | B)", "!A & !B"),
+            ("!(A & B)", "!A | !B"),
+            ("A ^ B", "(A | B) - (A & B)"),
+            ("A | A", "A"),
+            ("A & A", "A"),
+            ("A - A", "B ^ B"),
+            ("A & (A | B)", "A"),
+            ("A - (A - B)", "A & B"),
+            ("!!A", "A"),
+        ];
+        same.iter().for_each(|(x, y)| assert_eq!(cells(&a, x), cells(&a, y), "{x} = {y}"));
+    });
+}
+
+/// The surface of a solid, as it was cut and simplified: closed, with the volume and area of the cells.
+fn check_surface(a: &Arrangement, text: &str) {
+    let expression = Expression::parse(text, &operand_names(a.n_solids())).expect("well formed");
+    let solid = a.boolean(&expression, FillRule::NonZero).expect("closed");
+    let size: f64 = a.volumes()[1..].iter().sum();
+    let volume = if solid.is_bounded() { solid.volume() } else { -cut_off(a, solid.cells()) };
+    for detail in [Detail::Fragments, Detail::Simplified] {
+        let out = solid.to_complex(detail);
+        assert!(out.is_closed(), "{text}: {detail:?}");
+        assert_eq!(out.complex.validate(), [], "{text}: {detail:?}");
+        let found: f64 = (0..out.n_faces()).map(|f| share(&out, f)).sum();
+        assert!((found - volume).abs() <= ROUNDING * size, "{text}, {detail:?}: {found}, not {volume}");
+        let area: f64 = (0..out.n_faces()).map(|f| out.complex.face_area(f)).sum();
+        assert!((area - solid.area()).abs() <= ROUNDING * area, "{text}, {detail:?}: area {area}");
+    }
+}
+
+/// Volume of the bounded cells that are not among these.
+fn cut_off(a: &Arrangement, cells: &[CellId]) -> f64 {
+    let all = (1..a.n_cells() as u32).map(CellId);
+    all.filter(|c| cells.binary_search(c).is_err()).map(|c| a.volumes()[c.index()]).sum()
+}
+
+/// A face's share of the volume by the divergence theorem.
+fn share(out: &SolidComplex, face: usize) -> f64 {
+    let area = out.complex.face_area_vector(face);
+    let v = out.face_loops(FaceId(face as u32)).next().expect("faces have loops")[0];
+    let p = out.complex.points().xyz(v as usize);
+    (0..3).map(|k| p[k] * area[k]).sum::<f64>() / 3.0
+}
+
+fn result(input: &[Surface], text: &str) -> (f64, Surface) {
+    let a = arranged(input);
+    let expression = Expression::parse(text, &operand_names(input.len())).expect("well formed");
+    let solid = a.boolean(&expression, FillRule::NonZero).expect("closed");
+    let complex = solid.to_complex(Detail::Simplified);
+    let mut out = Surface::new(text, complex.complex.points().clone());
+    for f in 0..complex.n_faces() as u32 {
+        out.push_face(complex.face_loops(FaceId(f)), 1);
+    }
+    (solid.volume(), out)
+}
+
+/// One after the other, each result rounded and arranged again, against all at once.
+#[test]
+fn chains_of_booleans_agree_with_one() {
+    each_seed(60, |seed| {
+        let random = &mut Random(seed);
+        let mut input = closed_scene(random);
+        input.truncate(3);
+        input.resize_with(3, || block(random));
+        let size: f64 = arranged(&input).volumes()[1..].iter().sum();
+        for [first, then, at_once] in [
+            ["A | B", "A | B", "A | B | C"],
+            ["A & B", "A & B", "A & B & C"],
+            ["A - B", "A - B", "A - (B | C)"],
+            ["A ^ B", "A ^ B", "A ^ B ^ C"],
+            ["B - A", "B - A", "C - (B - A)"],
+        ] {
+            let (_, step) = result(&input[..2], first);
+            let (volume, _) = result(&[step, input[2].clone()], then);
+            let (expected, _) = result(&input, at_once);
+            let difference = (volume - expected).abs();
+            assert!(difference <= ROUNDING * size, "{at_once}: {volume} in steps, {expected} at once");
+        }
+    });
+}
