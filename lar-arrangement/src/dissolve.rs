@@ -23,9 +23,13 @@ pub(crate) struct Dissolved {
 
 /// Dissolves; copies the skeleton when there is nothing to dissolve.
 pub(crate) fn dissolve(skeleton: &Skeleton, rings: &Cells, soup: &Soup) -> Dissolved {
-    let removed: Vec<bool> =
+    let mut removed: Vec<bool> =
         (0..skeleton.edges.len()).map(|e| is_dissolvable(e, skeleton, rings, soup)).collect();
-    let (new_face, n_faces) = merged_faces(&removed, rings, skeleton.n_faces());
+    let faces = Faces { edges: &skeleton.edges, loops: &skeleton.loops, face_loops: &skeleton.face_loops };
+    let (mut new_face, mut n_faces) = merged_faces(&removed, rings, skeleton.n_faces());
+    if merge::keep_folds(&faces, &mut removed, &new_face, n_faces as usize) {
+        (new_face, n_faces) = merged_faces(&removed, rings, skeleton.n_faces());
+    }
     let mut old_face = vec![u32::MAX; n_faces as usize];
     for (&new, old) in new_face.iter().zip(0..) {
         let first = &mut old_face[new as usize];
@@ -39,7 +43,6 @@ pub(crate) fn dissolve(skeleton: &Skeleton, rings: &Cells, soup: &Soup) -> Disso
         .flat_map(|(ends, _)| *ends)
         .filter(|&v| !matches!(skeleton.vertices[v as usize].def, VertexDef::Grid(_)));
     let vertices = merge::with_two_edges(&skeleton.edges, &removed, candidates);
-    let faces = Faces { edges: &skeleton.edges, loops: &skeleton.loops, face_loops: &skeleton.face_loops };
     let removal =
         Removal { edges: &removed, new_face: &new_face, n_new_faces: n_faces as usize, vertices: &vertices };
     let merged = merge::merge(&faces, &removal, |v| skeleton.vertices[v as usize].at);

@@ -99,6 +99,30 @@ pub(crate) fn with_two_edges(
     remaining.into_iter().filter_map(|(v, edges)| Some((v, edges.try_into().ok()?))).collect()
 }
 
+/// Keeps the edges inside of new faces that would be none: where one remaining half-edge stands in two of the faces
+/// to be joined, their union folds back over itself, and its boundary would count that edge twice. Polygons that cross
+/// themselves do that when rounding has bent them. True when there are such; faces are then to be joined anew.
+/// O(n log n).
+pub(crate) fn keep_folds(faces: &Faces, removed: &mut [bool], new_face: &[u32], n_new_faces: usize) -> bool {
+    let mut size = vec![0u32; n_new_faces];
+    new_face.iter().for_each(|&new| size[new as usize] += 1);
+    let half_edges = |face: usize| {
+        let loops = faces.face_loops[face]..faces.face_loops[face + 1];
+        loops.flat_map(|l| faces.loops[l as usize].iter().copied())
+    };
+    let mut kept: Vec<(u32, u32)> = Vec::new();
+    for (face, &new) in new_face.iter().enumerate().filter(|(_, new)| size[**new as usize] > 1) {
+        kept.extend(half_edges(face).filter(|h| !removed[(h / 2) as usize]).map(|h| (new, h)));
+    }
+    kept.sort_unstable();
+    let mut folded = vec![false; n_new_faces];
+    kept.windows(2).filter(|w| w[0] == w[1]).for_each(|w| folded[w[0].0 as usize] = true);
+    for (face, _) in new_face.iter().enumerate().filter(|(_, new)| folded[**new as usize]) {
+        half_edges(face).for_each(|h| removed[(h / 2) as usize] = false);
+    }
+    folded.contains(&true)
+}
+
 /// The loops of each new face as old half-edges: at a removed edge the walk goes on along the loop on its other
 /// side.
 fn remaining_loops(faces: &Faces, removal: &Removal) -> Vec<Vec<Vec<u32>>> {

@@ -107,7 +107,7 @@ impl Solid<'_> {
             Detail::Simplified => surface.straight_vertices(&removed, &new_face),
         };
         let points = self.arrangement.complex().points();
-        let faces = Faces { edges: &surface.edges, loops: &surface.loops, face_loops: &surface.face_loops };
+        let faces = surface.loops_of_faces();
         let removal = Removal { edges: &removed, new_face: &new_face, n_new_faces, vertices: &straight };
         let merged = merge::merge(&faces, &removal, |v| points.xyz(surface.vertices[v as usize] as usize));
         let mut parents = vec![Vec::new(); n_new_faces];
@@ -185,20 +185,27 @@ impl<'a> OutwardFaces<'a> {
 
     /// Which edges disappear between faces of one plane, and the new number of each face.
     fn merged_faces(&self) -> (Vec<bool>, Vec<u32>, usize) {
+        let in_one_plane = |around: &Vec<u32>| matches!(around[..], [f, g] if self.in_one_plane(f, g));
+        let mut removed: Vec<bool> = self.around.iter().map(in_one_plane).collect();
+        let (new_face, n) = self.joined(&removed);
+        if merge::keep_folds(&self.loops_of_faces(), &mut removed, &new_face, n) {
+            let (new_face, n) = self.joined(&removed);
+            return (removed, new_face, n);
+        }
+        (removed, new_face, n)
+    }
+
+    fn joined(&self, removed: &[bool]) -> (Vec<u32>, usize) {
         let mut sets = UnionFind::new(self.faces.len());
-        let removed = self
-            .around
-            .iter()
-            .map(|around| match around[..] {
-                [f, g] if self.in_one_plane(f, g) => {
-                    sets.union(f, g);
-                    true
-                }
-                _ => false,
-            })
-            .collect();
+        for (around, _) in self.around.iter().zip(removed).filter(|(_, removed)| **removed) {
+            sets.union(around[0], around[1]);
+        }
         let (labels, n) = sets.labels();
-        (removed, labels, n as usize)
+        (labels, n as usize)
+    }
+
+    fn loops_of_faces(&self) -> Faces<'_> {
+        Faces { edges: &self.edges, loops: &self.loops, face_loops: &self.face_loops }
     }
 
     /// Vertices with two remaining edges that have the same two faces of different planes on both sides.

@@ -123,3 +123,16 @@ fn scribbles_keep_every_law() {
     }
     assert!(n_cells > 100, "only {n_cells} cells");
 }
+
+/// A polygon of five corners, nearly planar, whose loop passes one point twice: its triangles fold over each other, and
+/// one edge is a side of three of them (found by fuzzing).
+#[test]
+fn nearly_planar_polygons_that_fold() {
+    let e = 2f64.powi(-37);
+    let points =
+        [[2.0 + e, 3.0, 6.0], [5.0, 0.0, 1.0], [2.0, 3.0, 2.0 + e], [5.0 + e, 0.0, 1.0], [3.0, 2.0, 2.0]];
+    let folded = surface(&points, &[&[0, 1, 2, 3, 4]]);
+    let a = arranged(std::slice::from_ref(&folded));
+    assert_eq!(a.dangling_faces().count(), a.n_faces());
+    assert_eq!(counts(&arranged(&[folded.clone(), flipped(&folded)])), counts(&a));
+}

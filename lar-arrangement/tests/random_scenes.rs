@@ -99,6 +99,50 @@ fn with_coordinates(s: &Surface, map: &mut impl FnMut(f64) -> f64) -> Surface {
     out
 }
 
+/// Loops of corners in one plane, in any order, some twice, some beside the plane by a step or two of the grid.
+fn bent_scribble(random: &mut Random) -> Surface {
+    let (p, a, b) = (corner(random, 4), corner(random, 3), corner(random, 3));
+    let mut points = Vec::new();
+    let mut out = surface(&[], &[]);
+    let mut loops: Vec<Vec<u32>> = Vec::new();
+    for _ in 0..1 + random.below(2) {
+        let first = points.len() as u32;
+        for _ in 0..4 + random.below(4) {
+            let [i, j] = [0; 2].map(|_| random.below(4) as f64);
+            let bend = [0; 3].map(|_| [0.0, 0.0, 1.0, -1.0, 2.0][random.below(5)] * 2f64.powi(-36));
+            points.push([0, 1, 2].map(|k| p[k] + i * (a[k] - 1.0) + j * (b[k] - 1.0) + bend[k]));
+        }
+        loops.push((first..points.len() as u32).collect());
+    }
+    out.points = Points::from_xyz(&points);
+    out.push_face(loops.iter().map(Vec::as_slice), 1);
+    out
+}
+
+/// Nearly planar polygons that cross themselves fold when they are cut into triangles.
+#[test]
+fn bent_scribbles_keep_every_law() {
+    each_seed(200, |seed| {
+        let random = &mut Random(seed);
+        let mut input: Vec<Surface> = (0..1 + random.below(3)).map(|_| bent_scribble(random)).collect();
+        if random.below(2) == 0 {
+            input.push(block(random));
+        }
+        let a = arranged(&input);
+        let flipped: Vec<Surface> = input.iter().map(common::flipped).collect();
+        assert_eq!(all_counts(&arranged(&flipped)), all_counts(&a));
+        for solid in 0..a.n_solids() {
+            let expression = Expression::solid(solid);
+            let Ok(solid) = a.boolean(&expression, FillRule::EvenOdd) else { continue };
+            for detail in [Detail::Fragments, Detail::Simplified] {
+                let out = solid.to_complex(detail);
+                assert!(out.is_closed());
+                assert_eq!(out.complex.validate(), [], "{detail:?}");
+            }
+        }
+    });
+}
+
 /// A row-major 3 × 4 matrix of integers.
 type Exact = [[f64; 4]; 3];
 
@@ -171,10 +215,13 @@ fn assemblies_of_quarter_turns_are_exact() {
     });
 }
 
-/// An expression as text, and its value in a cell.
+/// The value where the solids hold that the bits say.
+type Value = Box<dyn Fn(&[bool]) -> bool>;
+
+/// An expression as text, and its value.
 struct Formula {
     text: String,
-    value: Box<dyn Fn(&[bool]) -> bool>,
+    value: Value,
 }
 
 fn formula(random: &mut Random, n: usize, depth: usize) -> Formula {

@@ -18,7 +18,7 @@ def kind(result):
 
 
 def verdict(result, program):
-    """One word or two: ok, or how the program failed."""
+    """ok, or how the program failed; the document explains the words."""
     if program not in result:
         return "not read"
     found = result[program]
@@ -30,6 +30,8 @@ def verdict(result, program):
     if any(found["open"].values()):
         return "not closed"
     size = max(map(abs, volumes.values()), default=0.0)
+    if size == 0:
+        return "nothing"
     slack = AGREEMENT[program] * size
     parts = volumes["difference"] + volumes["reverse"] + volumes["intersection"]
     if abs(volumes["union"] - parts) > slack:
