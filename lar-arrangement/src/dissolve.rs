@@ -2,7 +2,8 @@
 //!
 //! A nearly planar polygon was cut into triangles by soft edges. Where a soft edge still has only two faces around
 //! it, both pieces of the same polygons, the two faces become one. A vertex that is not a corner of the input and
-//! is left with two edges was the crossing of a soft edge with something: its edges become one.
+//! is left with two edges, between the same faces, was the crossing of a soft edge with something: its edges become
+//! one.
 
 use crate::kernel::VertexDef;
 use crate::merge::{self, Faces, Merged, Removal};
@@ -42,7 +43,14 @@ pub(crate) fn dissolve(skeleton: &Skeleton, rings: &Cells, soup: &Soup) -> Disso
         .filter(|(_, removed)| **removed)
         .flat_map(|(ends, _)| *ends)
         .filter(|&v| !matches!(skeleton.vertices[v as usize].def, VertexDef::Grid(_)));
-    let vertices = merge::with_two_edges(&skeleton.edges, &removed, candidates);
+    let mut vertices = merge::with_two_edges(&skeleton.edges, &removed, candidates);
+    // Where a segment lies in a polygon up to a soft edge and leaves it there, it ends inside of the new face.
+    let around = |edge: u32| {
+        let mut faces: Vec<u32> = rings[edge as usize].iter().map(|s| new_face[(s / 2) as usize]).collect();
+        faces.sort_unstable();
+        faces
+    };
+    vertices.retain(|_, [e, f]| around(*e) == around(*f));
     let removal =
         Removal { edges: &removed, new_face: &new_face, n_new_faces: n_faces as usize, vertices: &vertices };
     let merged = merge::merge(&faces, &removal, |v| skeleton.vertices[v as usize].at);

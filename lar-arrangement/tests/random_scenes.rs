@@ -5,8 +5,8 @@
 mod common;
 
 use common::{
-    Random, all_counts, arranged, assert_close, cuboid, each_seed, exact_motions, mapped, random_cubes,
-    relabelled, sorted_volumes, surface,
+    Random, all_counts, arranged, assert_close, cuboid, each_of, each_seed, exact_motions, mapped,
+    random_cubes, relabelled, sorted_volumes, surface,
 };
 use lar_arrangement::{Arrangement, Arranger, Detail, Expression, FillRule, SolidComplex, operand_names};
 use lar_core::{CellId, FaceId, Points, Struct, Surface, cuboid_grid, r, s, t, triangular_prism};
@@ -122,7 +122,8 @@ fn bent_scribble(random: &mut Random) -> Surface {
 /// Nearly planar polygons that cross themselves fold when they are cut into triangles.
 #[test]
 fn bent_scribbles_keep_every_law() {
-    each_seed(200, |seed| {
+    let found = [10_438];
+    each_of(found, 200, |seed| {
         let random = &mut Random(seed);
         let mut input: Vec<Surface> = (0..1 + random.below(3)).map(|_| bent_scribble(random)).collect();
         if random.below(2) == 0 {

@@ -35,9 +35,15 @@ impl Random {
 /// Runs a check on `count` seeds from 0 on, or as many as `LAR_SCENES` says from `LAR_SEED` on; a panic is followed by
 /// its seed.
 pub(crate) fn each_seed(count: u64, check: impl Fn(u64)) {
+    each_of([], count, check);
+}
+
+/// The same, after the seeds that once failed.
+pub(crate) fn each_of<const N: usize>(failed_once: [u64; N], count: u64, check: impl Fn(u64)) {
     let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse::<u64>().ok());
     let first = number("LAR_SEED").unwrap_or(0);
-    for seed in first..first + number("LAR_SCENES").unwrap_or(count) {
+    let drawn = first..first + number("LAR_SCENES").unwrap_or(count);
+    for seed in failed_once.into_iter().chain(drawn) {
         let outcome = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| check(seed)));
         assert!(outcome.is_ok(), "LAR_SEED={seed} LAR_SCENES=1 shows it again");
     }
