@@ -105,7 +105,9 @@ mod tests {
         check("1 2 3 nan", Err("a.seg: line 1: coordinate nan is not finite"));
         check("1 2 3 1e999", Err("a.seg: line 1: coordinate 1e999 is not finite"));
         let binary = parse_segments(b"1 2 3 4\n\xff\n", "a.seg").unwrap_err();
-        assert_eq!(binary.to_string(), "a.seg: line 2: not UTF-8 text");
+        assert_eq!(binary.to_string(), "a.seg: line 2: \"\u{fffd}\" where a coordinate is needed");
+        let wide = parse_segments(b"\xff\xfe1\0 \0", "a.seg").unwrap_err();
+        assert_eq!(wide.to_string(), "a.seg: line 1: not UTF-8 text");
         let missing = read_segments("no/such.seg").unwrap_err().to_string();
         assert!(missing.starts_with("cannot read no/such.seg: "), "{missing}");
     }
