@@ -237,7 +237,7 @@ impl Arrangement {
         &self.stats
     }
 
-    /// Edges where the surface of a solid is open, as pairs of positions of their ends. Empty for closed surfaces.
+    /// Edges where the surface of a solid is open. Empty for closed surfaces. O(size of the faces).
     #[must_use]
     pub fn open_edges(&self, solid: usize) -> Vec<EdgeId> {
         let mut uses = vec![0i32; self.n_edges()];

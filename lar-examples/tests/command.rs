@@ -151,7 +151,9 @@ fn facts() {
     let place = Place::with_cubes();
     let open = place.read("a.obj");
     place.write("open.obj", &open[..open.trim_end().rfind('\n').unwrap()]);
-    done(&place, &words("arrange a.obj open.obj --complex complex.json"));
+    let arranged = done(&place, &words("arrange a.obj open.obj --complex complex.json")).out;
+    let warning = "B (open.obj) is open, it has 4 boundary edges: no cell is inside it";
+    assert!(arranged.lines().any(|line| line == warning), "{arranged}");
     let said: Vec<String> =
         ["a.obj", "open.obj", "complex.json"].iter().map(|f| done(&place, &["info", f]).out).collect();
     insta::assert_snapshot!(said.join("\n"));

@@ -49,7 +49,7 @@ fn surface_file(bytes: &[u8], file: &str, format: MeshFormat) {
     assert!((0..again.n_faces()).all(|f| again.face(f).eq(read.surface.face(f))));
 }
 
-/// Bytes as an SVG drawing; what is drawn is arranged.
+/// Bytes as an SVG drawing; what is drawn is made the input of a planar arrangement.
 pub fn svg(bytes: &[u8]) {
     let Ok(text) = str::from_utf8(bytes) else { return };
     let Ok(drawing) = parse_svg(text, "fuzz.svg", 0.5) else { return };

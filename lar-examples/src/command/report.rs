@@ -41,6 +41,8 @@ pub(crate) struct Operand {
     file: String,
     faces: usize,
     closure: &'static str,
+    /// Edges of the arrangement where an open surface ends.
+    open_edges: usize,
     /// Least and greatest winding number in a cell: 0 and 1 when the surface is closed, does not cross itself and its
     /// faces look outwards.
     windings: [i32; 2],
@@ -62,6 +64,10 @@ impl Operand {
                     Closure::Unoriented => "unoriented",
                     Closure::Open => "open",
                 },
+                open_edges: match arrangement.closure(solid) {
+                    Closure::Open => arrangement.open_edges(solid).len(),
+                    Closure::Closed | Closure::Unoriented => 0,
+                },
                 windings: windings().fold([0, 0], |[lo, hi], w| [lo.min(w), hi.max(w)]),
                 signed_volume: windings().zip(&volumes).map(|(w, volume)| f64::from(w) * volume).sum(),
             }
@@ -72,7 +78,10 @@ impl Operand {
     /// What a reader should know of an operand that is not a proper solid.
     pub(crate) fn warning(&self) -> Option<String> {
         match self.closure {
-            "open" => Some(format!("{} ({}) is open: no cell is inside it", self.name, self.file)),
+            "open" => {
+                let edges = counted(self.open_edges, "boundary edge");
+                Some(format!("{} ({}) is open, it has {edges}: no cell is inside it", self.name, self.file))
+            }
             "unoriented" => Some(format!("{} ({}) is not oriented consistently", self.name, self.file)),
             _ => None,
         }
