@@ -27,38 +27,38 @@ impl Embedding<'_> {
     /// there are several.
     pub(crate) fn subdivision(&self, cycles: Cycles, component_of: &[u32]) -> Subdivision {
         let firsts = self.first_runs(component_of);
-        let outer: Vec<u32> = firsts
-            .iter()
-            .map(|&run| cycles.of[2 * self.edges.runs[run as usize].first_edge as usize])
-            .collect();
         let around = match firsts.len() {
             1 => vec![None],
             n => parallel::map(n, |i| self.locate(firsts[i])),
         };
+        let mut sweep: Vec<(u32, Option<u32>)> = firsts.into_iter().zip(around).collect();
+        parallel::sort_distinct_by(&mut sweep, |a, b| self.cmp_starts(a.0, b.0));
+        let outer = |&(run, _): &(u32, _)| cycles.of[2 * self.edges.runs[run as usize].first_edge as usize];
+        let outer: Vec<u32> = sweep.iter().map(outer).collect();
+        let around: Vec<Option<u32>> = sweep.iter().map(|(_, around)| *around).collect();
         Subdivision::nested(cycles, &outer, &around)
     }
 
     /// Of each component the run that leaves its first vertex last, counter-clockwise from the left. Carriers point
-    /// right or straight up, so a run begins there and all runs there do. Sorted by these vertices, from left to
-    /// right and upwards.
+    /// right or straight up, so a run begins there and all runs there do.
     fn first_runs(&self, component_of: &[u32]) -> Vec<u32> {
         let n = component_of.iter().max().map_or(0, |&c| c as usize + 1);
-        let order = |a: u32, b: u32| {
-            let [r, s] = [a, b].map(|run| &self.edges.runs[run as usize]);
-            let rank = |run: &Run| self.carriers.rank[run.carrier as usize];
-            let (v, w) = (self.edges.start(r), self.edges.start(s));
-            self.cmp(v, w, 0).then_with(|| self.cmp(v, w, 1)).then_with(|| rank(s).cmp(&rank(r)))
-        };
         let mut firsts: Vec<Option<u32>> = vec![None; n];
         for (&c, run) in component_of.iter().zip(0..) {
             let best = &mut firsts[c as usize];
-            if best.is_none_or(|b| order(run, b).is_lt()) {
+            if best.is_none_or(|b| self.cmp_starts(run, b).is_lt()) {
                 *best = Some(run);
             }
         }
-        let mut firsts: Vec<u32> = firsts.into_iter().flatten().collect();
-        parallel::sort_distinct_by(&mut firsts, |&a, &b| order(a, b));
-        firsts
+        firsts.into_iter().flatten().collect()
+    }
+
+    /// By the vertices that two runs begin at, from left to right and upwards, then by slope, the steepest first.
+    fn cmp_starts(&self, a: u32, b: u32) -> Ordering {
+        let [r, s] = [a, b].map(|run| &self.edges.runs[run as usize]);
+        let rank = |run: &Run| self.carriers.rank[run.carrier as usize];
+        let (v, w) = (self.edges.start(r), self.edges.start(s));
+        self.cmp(v, w, 0).then_with(|| self.cmp(v, w, 1)).then_with(|| rank(s).cmp(&rank(r)))
     }
 
     /// x and y times the denominator, and the denominator, which is positive: at most 126 and 84 bits.
