@@ -20,7 +20,7 @@ pub(crate) const WORKLOADS: [Workload; 16] = [
     ("star-1000", || star(1000)),
     ("star-10k", || star(10_000)),
     ("stars-20", stars),
-    ("collinear-10k", || collinear(10_000)),
+    ("collinear-2k", || collinear(2000)),
     ("near-grid", near_grid),
     ("near-touching", near_touching),
 ];

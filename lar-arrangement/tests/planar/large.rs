@@ -1,8 +1,9 @@
 //! Many segments, in arrangements whose counts are known in closed form; a quadratic step would show.
 
 use crate::check::arranged;
-use lar_arrangement::planar::{Dangling, Drawing, PlanarArrangement};
+use lar_arrangement::planar::{Dangling, Drawing, PlanarArrangement, PlanarArranger};
 use lar_core::{FaceId, Points};
+use std::num::NonZeroUsize;
 
 /// Vertices, edges, bounded faces, components.
 #[track_caller]
@@ -31,6 +32,76 @@ fn ten_thousand_through_one_grid_point() {
         (0..n).map(|i| f64::from(i - n / 2)).map(|a| [-a, -10_007.0, a, 10_007.0]).collect();
     check(&of(&star, Dangling::Keep), [20_001, 20_000, 0, 1]);
     check(&of(&star, Dangling::Drop), [0; 4]);
+}
+
+/// Segments from a point at a quarter turn or less from each other, at slopes (k + 1) / n.
+fn fan(n: i32, [x, y]: [f64; 2], reach: f64) -> impl Iterator<Item = [f64; 4]> {
+    (1..=n).map(move |k| [x, y, x + reach, y + reach * f64::from(k) / f64::from(n)])
+}
+
+/// A number of pairs that grows like n log n, not like n².
+#[track_caller]
+fn check_pairs(a: &PlanarArrangement, n_segments: usize) {
+    let pairs = a.stats().pairs_tested;
+    assert!(pairs < 100 * n_segments as u64, "{pairs} pairs of {n_segments} segments");
+}
+
+#[test]
+fn pairs_through_one_point_are_passed_over() {
+    let n = 8192;
+    let at = |k: i32| f64::from(k - n / 2) + 0.5;
+    let star: Vec<[f64; 4]> = (0..n).map(at).map(|a| [-a, -10_007.0, a, 10_007.0]).collect();
+    let a = of(&star, Dangling::Keep);
+    check(&a, [2 * n as usize + 1, 2 * n as usize, 0, 1]);
+    check_pairs(&a, star.len());
+
+    let one_fan: Vec<[f64; 4]> = fan(n, [3.0, 5.0], 1024.0).collect();
+    let a = of(&one_fan, Dangling::Keep);
+    check(&a, [n as usize + 1, n as usize, 0, 1]);
+    check_pairs(&a, one_fan.len());
+
+    // A star and a fan in one point, and a square around them.
+    let mixed: Vec<[f64; 4]> = star
+        .iter()
+        .copied()
+        .chain(fan(n, [0.0; 2], 1024.0))
+        .chain(square([-20_000.0; 2], 40_000.0))
+        .collect();
+    let a = of(&mixed, Dangling::Keep);
+    check(&a, [3 * n as usize + 1 + 4, 3 * n as usize + 4, 1, 2]);
+    check_pairs(&a, mixed.len());
+}
+
+#[test]
+fn many_stars_far_apart() {
+    let star = |i: i32| {
+        let (x, y) = (f64::from(300 * (i % 20)), f64::from(300 * (i / 20)));
+        (1..=99).map(move |k| f64::from(k)).map(move |k| [x - 100.0, y - k, x + 100.0, y + k])
+    };
+    let all: Vec<[f64; 4]> = (0..400).flat_map(star).collect();
+    check(&of(&all, Dangling::Keep), [400 * 199, 400 * 198, 0, 400]);
+}
+
+#[test]
+fn threads_do_not_change_the_bytes_of_bundles() {
+    let random = &mut crate::common::Random(5);
+    let mut segments: Vec<[f64; 4]> =
+        (0..3000).map(|_| [(); 4].map(|()| random.between(-500.0, 500.0))).collect();
+    segments.extend(fan(1000, [0.0; 2], 300.0).chain(fan(1000, [-250.0, 125.0], -200.0)));
+    segments.extend((1..1000).map(f64::from).map(|k| [-300.0, -0.3 * k, 300.0, 0.3 * k]));
+    let drawing = Drawing::from_segments(&segments);
+    let written = |threads: usize| {
+        let threads = NonZeroUsize::new(threads).expect("at least one");
+        let arranger = PlanarArranger::new().threads(threads).dangling(Dangling::Keep);
+        let a = arranger.arrange(&drawing).expect("well formed");
+        let faces: Vec<Vec<u32>> =
+            (0..=a.n_faces() as u32).flat_map(|f| a.face_vertices(FaceId(f))).collect();
+        let edges: Vec<_> = (0..segments.len()).flat_map(|i| a.edges_of(i)).collect();
+        (a.complex().points().clone(), faces, edges)
+    };
+    let one = written(1);
+    assert!(one.1.len() > 100_000, "{} faces", one.1.len());
+    assert!([2, 5].into_iter().all(|threads| written(threads) == one));
 }
 
 #[test]

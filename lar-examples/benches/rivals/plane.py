@@ -117,7 +117,7 @@ Written by `lar-examples/benches/rivals/plane.py DIRECTORY`, which fetches the o
 by turns on the same files: {harness.machine()}.
 
 CPU milliseconds of the operation alone, one thread, arrays in and data structure out, each run in a process of its own;
-medians of {harness.REPETITIONS} runs (¹: over {harness.LONG:.0f} s, run once; *time*: over {harness.LIMIT:.0f} s;
+medians of {harness.REPETITIONS} runs (¹: over {harness.LONG:.0f} s, run once; *time*: over {harness.LIMIT} s;
 *fails*: stops with an error). ✗: counts differ from the exact ones. Faces include the exterior; dangling edges are kept.
 
 {chr(10).join(times(rows))}
