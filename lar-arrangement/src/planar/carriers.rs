@@ -62,19 +62,15 @@ impl Carriers {
         let ends: Vec<[u32; 2]> = first.iter().map(|&input| lines.ends[input as usize]).collect();
         let member = |(input, s): (usize, &Segment)| {
             let carrier = number[lines.of[input] as usize];
-            (s.ends[0] != s.ends[1]).then(|| Member {
-                input: input as u32,
-                carrier,
-                ends: s.ends,
-                reversed: s.reversed,
-            })
+            Member { input: input as u32, carrier, ends: s.ends, reversed: s.reversed }
         };
+        let has_length = |(_, s): &(usize, &Segment)| s.ends[0] != s.ends[1];
         Self {
             positions: ends.iter().map(|ends| ends.map(|p| points[p as usize])).collect(),
             ends,
             rank: first.iter().map(|&input| lines.rank[input as usize]).collect(),
             stops: lines.stops.iter().map(|&(input, p)| (number[input as usize], p)).collect(),
-            members: segments.iter().enumerate().filter_map(member).collect(),
+            members: segments.iter().enumerate().filter(has_length).map(member).collect(),
             points,
         }
     }

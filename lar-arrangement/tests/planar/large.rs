@@ -76,7 +76,7 @@ fn pairs_through_one_point_are_passed_over() {
 fn many_stars_far_apart() {
     let star = |i: i32| {
         let (x, y) = (f64::from(300 * (i % 20)), f64::from(300 * (i / 20)));
-        (1..=99).map(move |k| f64::from(k)).map(move |k| [x - 100.0, y - k, x + 100.0, y + k])
+        (1..=99).map(f64::from).map(move |k| [x - 100.0, y - k, x + 100.0, y + k])
     };
     let all: Vec<[f64; 4]> = (0..400).flat_map(star).collect();
     check(&of(&all, Dangling::Keep), [400 * 199, 400 * 198, 0, 400]);

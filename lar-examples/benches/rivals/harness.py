@@ -5,6 +5,7 @@ alone. Nothing is written outside the directory that the reader names, but the s
 """
 
 import json
+import math
 import os
 import platform
 import re
@@ -20,8 +21,8 @@ HERE = Path(__file__).resolve().parent
 DOCUMENT = HERE.parents[2] / "docs" / "benchmarks.md"
 
 REPETITIONS = 5
-# A run that takes longer (in seconds of CPU time) is not repeated.
-LONG = 5.0
+# A run that takes longer (in seconds of CPU time) is not repeated, but the first engine's is.
+LONG = 2.0
 # And a process that takes longer than this is given up.
 LIMIT = 40
 
@@ -78,16 +79,30 @@ def run(command):
     return json.loads(lines[-1]) if done.returncode == 0 and lines else "fails"
 
 
-def by_turns(engines, file):
-    """Runs all engines on a file by turns: medians of CPU time, wall time and memory for each, and its counts."""
+def by_turns(engines, file, too_large):
+    """Runs all engines on a file by turns: medians of CPU time, wall time and memory for each, and its counts.
+
+    `too_large` remembers for engines that took too long how large the first engine's result was: they are not tried on
+    larger ones.
+    """
     runs = {name: [] for name in engines}
+    ours = next(iter(engines))
     for turn in range(REPETITIONS):
         for name, command in engines.items():
-            if turn == 0 or (isinstance(runs[name][0], dict) and runs[name][0]["cpu"] <= LONG):
+            if turn == 0 and name in too_large and size(runs[ours]) > too_large[name]:
+                runs[name].append("–")
+            elif turn == 0 or name == ours or (isinstance(runs[name][0], dict) and runs[name][0]["cpu"] <= LONG):
                 runs[name].append(run([*command, file]))
+    for name, results in runs.items():
+        if results[0] == "time":
+            too_large[name] = min(size(runs[ours]), too_large.get(name, math.inf))
     print(file.stem, {name: r[0] if isinstance(r[0], str) else f"{r[0]['cpu']:.3f}" for name, r in runs.items()},
-          file=sys.stderr)
+          file=sys.stderr, flush=True)
     return {name: merged(results) for name, results in runs.items()}
+
+
+def size(results):
+    return results[0]["counts"][0]
 
 
 def merged(results):
