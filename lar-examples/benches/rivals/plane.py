@@ -2,9 +2,9 @@
 """Planar arrangements compared with other libraries: `plane.py DIRECTORY [WORKLOAD ...]`.
 
 Fetches and builds the others in DIRECTORY (which is made; about 1 GB), writes the workloads of
-lar-arrangement/benches/planar there, runs all libraries on them by turns, checks that they count the same cells, and
-writes the section on the plane of docs/benchmarks.md (only if no workloads are named). Needs Linux with cargo, g++,
-Debian's apt-get, and Python with venv.
+lar-arrangement/benches/planar there, runs all libraries on them (or on those that are named) by turns, checks that they
+count the same cells, and writes the section on the plane of docs/benchmarks.md. Needs Linux with cargo, g++, Debian's
+apt-get, and Python with venv.
 """
 
 import math
@@ -153,10 +153,7 @@ def main():
         if not sys.argv[2:] or name in sys.argv[2:]:
             results = harness.by_turns(commands, workloads / f"{name}.seg", too_large)
             rows[name] = results, check(name, results)
-    if sys.argv[2:]:
-        print(section(rows))
-    else:
-        harness.write_section("plane", section(rows))
+    harness.write_section("plane", section(rows))
 
 
 if __name__ == "__main__":
