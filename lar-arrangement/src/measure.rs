@@ -40,6 +40,19 @@ impl Arrangement {
         sum
     }
 
+    /// Area of the triangles between a corner of each loop of a face and its edges, whichever way they turn.
+    pub(crate) fn fan_area(&self, face: FaceId) -> f64 {
+        let mut sum = 0.0;
+        for cycle in self.face_vertices(face) {
+            for w in cycle.windows(2) {
+                let [a, b] = [w[0], w[1]].map(|v| sub(self.position(v), self.position(cycle[0])));
+                let c = cross(a, b);
+                sum += dot(c, c).sqrt() / 2.0;
+            }
+        }
+        sum
+    }
+
     /// Area of a face.
     #[must_use]
     pub fn area(&self, face: FaceId) -> f64 {

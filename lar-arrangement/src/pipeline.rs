@@ -25,7 +25,7 @@ use std::num::NonZeroUsize;
 /// Polygons whose corners lie within this many grid steps of a plane are meant to be planar: a corner that is
 /// rounded moves by less than one step, and the plane through three rounded corners, taken far apart, passes the
 /// others within a few.
-const FLATNESS: f64 = 16.0;
+pub(crate) const FLATNESS: f64 = 16.0;
 
 /// Pairs of facets a chunk of work.
 const PAIRS_A_CHUNK: usize = 2048;
