@@ -143,7 +143,7 @@ impl Arrangement {
     #[must_use]
     pub fn vertex_kind(&self, vertex: VertexId) -> VertexKind {
         match self.vertices[vertex.index()].def {
-            VertexDef::Grid(_) => VertexKind::Input,
+            VertexDef::Point(_) => VertexKind::Input,
             VertexDef::EdgePlane { .. } => VertexKind::EdgeCrossing,
             VertexDef::Facets(_) => VertexKind::PlaneCrossing,
         }

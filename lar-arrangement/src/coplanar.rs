@@ -1,8 +1,9 @@
 //! Stage 2b: facets in one plane. Their edges split each other; facets whose insides overlap form a group that
 //! is fragmented as one.
 
+use crate::boxes::Aabb;
 use crate::crossing::Contacts;
-use crate::kernel::{Geometry, Plane, Sign, Support};
+use crate::kernel::{Along, Geometry, Sign, Support};
 use crate::soup::Soup;
 
 /// Splits the edges of two coplanar facets by each other; true when the facets' insides (may) overlap.
@@ -22,23 +23,20 @@ pub(crate) fn meet(soup: &Soup, [f, g]: [u32; 2], out: &mut Contacts) -> bool {
     !(separates(soup, edges_f, edges_g, axis, up) || separates(soup, edges_g, edges_f, axis, up_g))
 }
 
-fn turn(geometry: &Geometry, [a, b]: [u32; 2], p: u32, axis: usize) -> Sign {
-    let [a, b, p] = [a, b, p].map(|p| geometry.points[p as usize]);
-    Sign::from(Plane::vertical(a, b, axis).side(p))
-}
-
 fn split_each_other(soup: &Soup, e: u32, h: u32, axis: usize, out: &mut Contacts) {
     let geometry = &soup.geometry;
-    let n_points = geometry.points.len() as u32;
+    let n_points = geometry.n_points() as u32;
     let [ends_e, ends_h] = [e, h].map(|e| soup.edges[e as usize]);
     if !boxes_meet(geometry, ends_e, ends_h) {
         return;
     }
-    let of_h = ends_h.map(|p| if ends_e.contains(&p) { Sign::Zero } else { turn(geometry, ends_e, p, axis) });
+    let of_h =
+        ends_h.map(|p| if ends_e.contains(&p) { Sign::Zero } else { geometry.turn_to(ends_e, p, axis) });
     if of_h[0].times(of_h[1]) == Sign::Positive {
         return;
     }
-    let of_e = ends_e.map(|p| if ends_h.contains(&p) { Sign::Zero } else { turn(geometry, ends_h, p, axis) });
+    let of_e =
+        ends_e.map(|p| if ends_h.contains(&p) { Sign::Zero } else { geometry.turn_to(ends_h, p, axis) });
     if of_h[0].times(of_h[1]) == Sign::Negative && of_e[0].times(of_e[1]) == Sign::Negative {
         let vertex = geometry.edge_vertex(ends_e, Support::Vertical { ends: ends_h, axis: axis as u8 });
         let v = out.push_split(e, &vertex, n_points);
@@ -55,15 +53,16 @@ fn split_each_other(soup: &Soup, e: u32, h: u32, axis: usize, out: &mut Contacts
 }
 
 fn boxes_meet(geometry: &Geometry, e: [u32; 2], h: [u32; 2]) -> bool {
-    let [[a, b], [c, d]] = [e, h].map(|e| e.map(|p| geometry.points[p as usize]));
-    (0..3).all(|k| a[k].min(b[k]) <= c[k].max(d[k]) && c[k].min(d[k]) <= a[k].max(b[k]))
+    // Rounding is monotone: exact boxes that meet have rounded ones that do.
+    let [e, h] = [e, h].map(|ends| Aabb::around(ends.map(|p| geometry.position(p))));
+    e.meets(&h)
 }
 
 /// For a point on the line of an edge: whether it lies inside the edge.
 fn strictly_between(geometry: &Geometry, ends: [u32; 2], p: u32) -> bool {
-    let ([a, b], p) = (ends.map(|p| geometry.points[p as usize]), geometry.points[p as usize]);
-    let axis = (0..3).max_by_key(|&k| (a[k] - b[k]).abs()).expect("three axes");
-    a[axis].min(b[axis]) < p[axis] && p[axis] < a[axis].max(b[axis])
+    let (axis, sign) = geometry.axis_of(&geometry.direction(Along::Edge(ends)));
+    let [low, high] = if sign == Sign::Positive { ends } else { [ends[1], ends[0]] };
+    geometry.cmp_points(low, p, axis).is_lt() && geometry.cmp_points(p, high, axis).is_lt()
 }
 
 /// Whether the first facet is convex and one of its edges has all corners of the second facet on its outer side
@@ -73,7 +72,7 @@ fn separates(soup: &Soup, edges: &[u32], others: &[u32], axis: usize, counter_cl
     let all_but = |side: Sign, ends: [u32; 2], edges: &[u32]| {
         edges.iter().all(|&e| {
             let [p, _] = soup.directed(e);
-            ends.contains(&p) || turn(&soup.geometry, ends, p, axis) != side
+            ends.contains(&p) || soup.geometry.turn_to(ends, p, axis) != side
         })
     };
     edges.iter().all(|&e| all_but(-inner, soup.directed(e), edges))

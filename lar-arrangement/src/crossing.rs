@@ -15,7 +15,7 @@ use crate::kernel::{Along, Direction, Geometry, Sign, Support, Vertex, VertexDef
 use crate::soup::Soup;
 use std::cmp::Ordering;
 
-/// A vertex in the lists below: a grid point, or (from `n_points` on) an entry of `Contacts::vertices`.
+/// A vertex in the lists below: an input point, or (from `n_points` on) an entry of `Contacts::vertices`.
 pub(crate) type VertexRef = u32;
 
 /// A segment inside `facet`, common with the facet `other`.
@@ -56,7 +56,7 @@ impl Contacts {
 
     fn vertex_ref(&mut self, vertex: &Vertex, n_points: u32) -> VertexRef {
         match vertex.def {
-            VertexDef::Grid(p) => p,
+            VertexDef::Point(p) => p,
             _ => {
                 self.vertices.push(*vertex);
                 n_points + self.vertices.len() as u32 - 1
@@ -164,8 +164,8 @@ fn classify(soup: &Soup, f: u32, g: u32, signs: &mut Vec<Sign>) -> Position {
     let mut any = [false; 3];
     for &edge in edges {
         let [p, _] = soup.directed(edge);
-        let is_shared = soup.geometry.is_base_corner(g, p);
-        let sign = if is_shared { Sign::Zero } else { soup.geometry.side_of_point(p, g) };
+        let is_on_plane = soup.geometry.lies_on(p, g);
+        let sign = if is_on_plane { Sign::Zero } else { soup.geometry.side_of_point(p, g) };
         any[(sign as i8 + 1) as usize] = true;
         signs.push(sign);
     }
@@ -237,11 +237,11 @@ fn toggles(sign: Sign) -> [bool; 2] {
 }
 
 fn push_corner(geometry: &Geometry, stops: &mut Vec<Stop>, p: u32, toggles: [bool; 2]) {
-    let def = VertexDef::Grid(p);
+    let def = VertexDef::Point(p);
     match stops.iter_mut().find(|s| s.vertex.def == def) {
         Some(stop) => (0..2).for_each(|k| stop.toggles[k] ^= toggles[k]),
         None => {
-            stops.push(Stop { vertex: geometry.grid_vertex(p), edge: NO_EDGE, toggles, gap: Gap::Outside });
+            stops.push(Stop { vertex: geometry.point_vertex(p), edge: NO_EDGE, toggles, gap: Gap::Outside });
         }
     }
 }
@@ -256,7 +256,7 @@ fn edge_over_gap(
 ) -> Option<u32> {
     let (before, after) = (&stops[i].vertex, &stops.get(i + 1)?.vertex);
     on_line.iter().find_map(|&(edge, ends)| {
-        let [p, q] = ends.map(|p| geometry.grid_vertex(p));
+        let [p, q] = ends.map(|p| geometry.point_vertex(p));
         let (lo, hi) = if geometry.cmp_coordinate(&p, &q, axis).is_lt() { (p, q) } else { (q, p) };
         let covers = geometry.cmp_coordinate(&lo, before, axis).is_le()
             && geometry.cmp_coordinate(after, &hi, axis).is_le();
@@ -289,7 +289,7 @@ impl Place {
 
 /// Lays two traces over each other and records the common points and segments.
 fn overlay(geometry: &Geometry, facets: [u32; 2], axis: usize, traces: &[Vec<Stop>; 2], out: &mut Contacts) {
-    let n_points = geometry.points.len() as u32;
+    let n_points = geometry.n_points() as u32;
     let [mut i, mut j] = [0, 0];
     let mut gaps = [Gap::Outside; 2];
     let mut previous: Option<VertexRef> = None;
@@ -334,12 +334,12 @@ fn record_point(
     n_points: u32,
     out: &mut Contacts,
 ) -> VertexRef {
-    let is_grid = |s: &&Stop| matches!(s.vertex.def, VertexDef::Grid(_));
+    let is_point = |s: &&Stop| matches!(s.vertex.def, VertexDef::Point(_));
     let stop = stops
         .iter()
         .flatten()
         .copied()
-        .find(is_grid)
+        .find(is_point)
         .or_else(|| stops.into_iter().flatten().next())
         .expect("every point of the overlay is a stop of one trace");
     let v = out.vertex_ref(&stop.vertex, n_points);

@@ -42,7 +42,7 @@ pub(crate) fn dissolve(skeleton: &Skeleton, rings: &Cells, soup: &Soup) -> Disso
         .zip(&removed)
         .filter(|(_, removed)| **removed)
         .flat_map(|(ends, _)| *ends)
-        .filter(|&v| !matches!(skeleton.vertices[v as usize].def, VertexDef::Grid(_)));
+        .filter(|&v| !matches!(skeleton.vertices[v as usize].def, VertexDef::Point(_)));
     let mut vertices = merge::with_two_edges(&skeleton.edges, &removed, candidates);
     // Where a segment lies in a polygon up to a soft edge and leaves it there, it ends inside of the new face.
     let around = |edge: u32| {

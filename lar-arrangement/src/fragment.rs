@@ -322,9 +322,7 @@ impl<'a> Local<'a> {
         let of_t = self.sides(t, s);
         let proper = |signs: [Sign; 2]| signs[0].times(signs[1]) == Sign::Negative;
         if proper(of_s) && proper(of_t) {
-            let mut facets = [self.group[0], s.other, t.other];
-            facets.sort_unstable();
-            let vertex = self.geometry().facets_vertex(facets);
+            let vertex = self.geometry().facets_vertex([self.group[0], s.other, t.other]);
             let v = self.interner.intern(vertex, self.geometry());
             lines[i].splits.push(v);
             lines[j].splits.push(v);

@@ -16,16 +16,20 @@ pub(crate) struct Interner {
 }
 
 impl Interner {
-    /// The points of the input, in their order. They are looked up by their integer coordinates and need no other
-    /// keys.
+    /// The points of the input, in their order. Grid points are looked up by their integer coordinates and need no
+    /// other keys.
     pub(crate) fn new(geometry: &Geometry, grid_points: FxHashMap<[i64; 3], u32>) -> Self {
-        let n = geometry.points.len() as u32;
-        Self {
-            vertices: (0..n).map(|p| geometry.grid_vertex(p)).collect(),
-            next_at: (0..n).collect(),
-            grid_points,
-            ..Self::default()
+        let mut interner = Self { grid_points, ..Self::default() };
+        for p in 0..geometry.n_points() as u32 {
+            let vertex = geometry.point_vertex(p);
+            if geometry.grid_point(p).is_some() {
+                interner.vertices.push(vertex);
+                interner.next_at.push(p);
+            } else {
+                interner.push(vertex);
+            }
         }
+        interner
     }
 
     /// Adds a vertex that is known to differ from all others.

@@ -3,6 +3,7 @@
 mod arrangement;
 mod boolean;
 mod boxes;
+mod canonical;
 mod check;
 mod coplanar;
 mod crossing;
@@ -35,7 +36,7 @@ pub use arrangement::{Arrangement, HalfEdge, VertexKind};
 pub use boolean::{BooleanError, FillRule, Solid};
 pub use error::ArrangementError;
 pub use expression::{Expression, ExpressionError, operand_names};
-pub use pipeline::{Arranger, Checks, arrange};
+pub use pipeline::{Arranger, Checks, Planes, arrange};
 pub use simplify::{Detail, SolidComplex};
 pub use soup::Parent;
 pub use stats::Stats;

@@ -10,7 +10,7 @@
 //! (ε³, ε, ε²) for an infinitesimal ε, consistently in every predicate (simulation of simplicity).
 
 use crate::boxes::{Aabb, BoxTree};
-use crate::kernel::{Geometry, Int, Midpoint, Sign, Support};
+use crate::kernel::{Geometry, Midpoint, Sign};
 use crate::skeleton::Skeleton;
 use crate::union_find::UnionFind;
 use crate::wrap;
@@ -31,13 +31,6 @@ pub(crate) struct Nesting<'a> {
 /// Up to so many rays look at every face: that costs less than a tree.
 const FEW_RAYS: usize = 4;
 
-/// A face hit by a ray: the distance is side / normal, both exact.
-struct Hit {
-    face: u32,
-    side: Int<12>,
-    normal: [i128; 3],
-}
-
 impl Nesting<'_> {
     /// Cell of each shell; cell 0 is the exterior. Also the number of cells.
     pub(crate) fn cells(&self) -> (Vec<u32>, u32) {
@@ -48,9 +41,9 @@ impl Nesting<'_> {
         let tree = (edges.len() > FEW_RAYS).then(|| BoxTree::new(&self.boxes()));
         for edge in edges {
             let mut here = self.shell_of_side[self.sector(edge) as usize];
-            for hit in self.hits(edge, tree.as_ref()) {
-                sets.union(here, self.shell(&hit, false));
-                here = self.shell(&hit, true);
+            for face in self.hits(edge, tree.as_ref()) {
+                sets.union(here, self.shell(face, false));
+                here = self.shell(face, true);
             }
             sets.union(here, n as u32);
         }
@@ -87,7 +80,7 @@ impl Nesting<'_> {
     }
 
     /// The faces that the ray from the middle of an edge meets, in their order.
-    fn hits(&self, edge: u32, tree: Option<&BoxTree>) -> Vec<Hit> {
+    fn hits(&self, edge: u32, tree: Option<&BoxTree>) -> Vec<u32> {
         let [a, b] = self.skeleton.edges[edge as usize].map(|v| &self.skeleton.vertices[v as usize]);
         let start = self.geometry.midpoint(a, b);
         let mut hits = Vec::new();
@@ -96,7 +89,11 @@ impl Nesting<'_> {
             lo: [f64::NEG_INFINITY, start.at[1] - 1.0, start.at[2] - 1.0],
             hi: start.at.map(|x| x + 1.0),
         };
-        let mut visit = |face| hits.extend(self.hit(face, &start));
+        let mut visit = |face| {
+            if self.is_hit(face, &start) {
+                hits.push(face);
+            }
+        };
         match tree {
             Some(tree) => tree.query(&beam, visit),
             None => {
@@ -104,14 +101,17 @@ impl Nesting<'_> {
                 faces.filter(|&f| self.face_box(f).meets(&beam)).for_each(&mut visit);
             }
         }
-        hits.sort_by(nearer);
+        hits.sort_by(|&f, &g| {
+            let facets = [f, g].map(|face| self.skeleton.facet(face));
+            self.geometry.cmp_hits(&start, facets).then_with(|| f.cmp(&g))
+        });
         hits
     }
 
     /// The shell on the side of a hit face that the ray leaves to, or comes from.
-    fn shell(&self, hit: &Hit, beyond: bool) -> u32 {
-        let front_is_beyond = hit.normal[0] < 0;
-        self.shell_of_side[(2 * hit.face + u32::from(front_is_beyond != beyond)) as usize]
+    fn shell(&self, face: u32, beyond: bool) -> u32 {
+        let front_is_beyond = self.geometry.normal_sign(self.skeleton.facet(face), 0) == Sign::Negative;
+        self.shell_of_side[(2 * face + u32::from(front_is_beyond != beyond)) as usize]
     }
 
     /// The side that bounds the sector around an edge into which its middle is moved: direction (ε², 1, ε).
@@ -120,12 +120,7 @@ impl Nesting<'_> {
         // Whether the direction lies within half a turn counter-clockwise of the face.
         let ahead = |entry: u32| {
             let facet = self.skeleton.facet(entry / 2);
-            let sign = [1, 2, 0]
-                .map(|axis| self.geometry.normal_sign(facet, axis))
-                .into_iter()
-                .find(|&s| s != Sign::Zero)
-                .expect("normals are not zero");
-            (sign == Sign::Positive) == entry.is_multiple_of(2)
+            (self.first_sign(facet) == Sign::Positive) == entry.is_multiple_of(2)
         };
         let contains = |i: usize| {
             let (a, b) = (ring[i], ring[(i + 1) % ring.len()]);
@@ -142,22 +137,26 @@ impl Nesting<'_> {
     }
 
     /// Whether the ray from `start` towards −x meets a face.
-    fn hit(&self, face: u32, start: &Midpoint) -> Option<Hit> {
+    fn is_hit(&self, face: u32, start: &Midpoint) -> bool {
         let facet = self.skeleton.facet(face);
-        if self.geometry.normal_sign(facet, 0) == Sign::Zero || !self.projection_contains(face, start) {
-            return None;
+        let across = self.geometry.normal_sign(facet, 0);
+        if across == Sign::Zero || !self.projection_contains(face, start) {
+            return false;
         }
-        let plane = self.geometry.plane(Support::Facet(facet));
-        let side: Int<12> = plane.scaled_side(&start.exact).resize();
-        let moved = match side.sign() {
-            Sign::Zero => [1, 2, 0]
-                .map(|k| Sign::from(plane.n[k]))
-                .into_iter()
-                .find(|&s| s != Sign::Zero)
-                .expect("normals are not zero"),
+        let moved = match self.geometry.side_of_midpoint(start, facet) {
+            Sign::Zero => self.first_sign(facet),
             sign => sign,
         };
-        (moved == Sign::from(plane.n[0])).then_some(Hit { face, side, normal: plane.n })
+        moved == across
+    }
+
+    /// The side of a facet's plane to which a point on it is moved: direction (ε², 1, ε).
+    fn first_sign(&self, facet: u32) -> Sign {
+        [1, 2, 0]
+            .map(|axis| self.geometry.normal_sign(facet, axis))
+            .into_iter()
+            .find(|&s| s != Sign::Zero)
+            .expect("normals are not zero")
     }
 
     /// Whether the start, projected along x, lies in the projected face: crossings of the ray towards +y.
@@ -173,23 +172,4 @@ impl Nesting<'_> {
         }
         inside
     }
-}
-
-/// Order of two hits by distance: by side / normal[0], then by what the moved start adds to it.
-fn nearer(a: &Hit, b: &Hit) -> Ordering {
-    let flip = Sign::from(a.normal[0]).times(Sign::from(b.normal[0])) == Sign::Negative;
-    let scaled = |x: &Int<12>, n: i128| *x * Int::from(n);
-    let oriented = |order: Ordering| if flip { order.reverse() } else { order };
-    oriented(scaled(&a.side, b.normal[0]).cmp(&scaled(&b.side, a.normal[0])))
-        .then_with(|| {
-            [1, 2]
-                .map(|k| {
-                    let of = |x: i128, n: i128| Int::<12>::from(x) * Int::from(n);
-                    oriented(of(a.normal[k], b.normal[0]).cmp(&of(b.normal[k], a.normal[0])))
-                })
-                .into_iter()
-                .find(|o| o.is_ne())
-                .unwrap_or(Ordering::Equal)
-        })
-        .then_with(|| a.face.cmp(&b.face))
 }

@@ -2,18 +2,20 @@
 
 use crate::arrangement::{Arrangement, SolidInfo};
 use crate::boxes::{Aabb, BoxTree};
+use crate::canonical::{Canonicaliser, Report, Stage, Tolerance};
 use crate::check;
 use crate::coplanar;
 use crate::crossing::{self, Contacts, Scratch};
 use crate::dissolve::{self, Dissolved};
 use crate::error::ArrangementError;
 use crate::fragment::{Fragmenter, Fragments};
+use crate::grid::Grid;
 use crate::interner::Interner;
 use crate::merge::Merged;
 use crate::nest::Nesting;
 use crate::parallel;
 use crate::skeleton::Skeleton;
-use crate::soup::{Parent, Soup};
+use crate::soup::{Parent, Placed, Soup};
 use crate::split::Cuts;
 use crate::stats::{Stats, Watch};
 use crate::union_find::UnionFind;
@@ -21,11 +23,6 @@ use crate::winding::{Jumps, Windings};
 use crate::wrap;
 use lar_core::{Cells, ChainComplex, Points, Surface};
 use std::num::NonZeroUsize;
-
-/// Polygons whose corners lie within this many grid steps of a plane are meant to be planar: a corner that is
-/// rounded moves by less than one step, and the plane through three rounded corners, taken far apart, passes the
-/// others within a few.
-pub(crate) const FLATNESS: f64 = 16.0;
 
 /// Pairs of facets a chunk of work.
 const PAIRS_A_CHUNK: usize = 2048;
@@ -40,6 +37,19 @@ pub enum Checks {
     Off,
     /// All of them; a failure is an error that names the stage.
     EveryStage,
+}
+
+/// What becomes of facets that lie nearly, but not exactly, in one plane.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Planes {
+    /// They are put into one plane where rounding explains the difference: half a grid step, or half a unit in the last
+    /// place of the coordinates' source (`Surface::precision`).
+    #[default]
+    Canonical,
+    /// The same, for coordinates that are off by up to this length.
+    Within(f64),
+    /// They stay where the grid has them.
+    AsGiven,
 }
 
 /// Options for an arrangement.
@@ -59,6 +69,7 @@ pub enum Checks {
 pub struct Arranger {
     threads: Option<NonZeroUsize>,
     checks: Checks,
+    planes: Planes,
 }
 
 /// The arrangement of some surfaces with the default options.
@@ -95,6 +106,28 @@ impl Arranger {
         self
     }
 
+    /// Decides about facets that are nearly coplanar.
+    ///
+    /// ```
+    /// use lar_arrangement::{Arranger, Planes};
+    /// use lar_core::{cuboid_grid, rotation, t, Struct};
+    /// let cube = cuboid_grid(&[1, 1, 1]);
+    /// let turn = rotation([1.0, 2.0, 3.0], 0.7)?;
+    /// let stacked = Struct::new("stacked").with(turn).with(cube.clone()).with(t(&[1.0, 0.0, 0.0])).with(cube);
+    /// let surfaces: Vec<_> = stacked.eval_struct()?.iter().map(|m| m.to_surface()).collect::<Result<_, _>>()?;
+    /// let touching = Arranger::new().arrange(&surfaces)?;
+    /// assert_eq!((touching.n_faces(), touching.n_cells()), (11, 3));
+    /// assert!(touching.stats().farthest_move < 1e-11);
+    /// let as_given = Arranger::new().planes(Planes::AsGiven).arrange(&surfaces)?;
+    /// assert_eq!(as_given.stats().canonical_planes, 0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn planes(mut self, planes: Planes) -> Self {
+        self.planes = planes;
+        self
+    }
+
     /// Computes the arrangement. O((n + k + m) log) time and O(n + k + m) memory for n facets, k pairs of facets
     /// that meet and m cells out.
     ///
@@ -108,10 +141,7 @@ impl Arranger {
     fn run(&self, surfaces: &[Surface]) -> Result<Arrangement, ArrangementError> {
         let mut stats = Stats::default();
         let mut watch = Watch::start();
-        let mut soup = Soup::new(surfaces, FLATNESS)?;
-        watch.lap(&mut stats, "soup");
-        let pairs = BoxTree::new(&facet_boxes(&soup)).pairs();
-        watch.lap(&mut stats, "pairs");
+        let (mut soup, pairs) = self.soup_and_pairs(surfaces, &mut stats, &mut watch)?;
         let mut contacts = contacts(&soup, &pairs);
         stats.pairs_tested = pairs.len() as u64;
         stats.pairs_crossing = contacts.crossing_pairs;
@@ -149,6 +179,58 @@ impl Arranger {
         Ok(out)
     }
 
+    /// Stage 1, and the pairs of facets whose boxes meet.
+    fn soup_and_pairs(
+        &self,
+        surfaces: &[Surface],
+        stats: &mut Stats,
+        watch: &mut Watch,
+    ) -> Result<(Soup, Vec<[u32; 2]>), ArrangementError> {
+        let placed = Placed::snapped(surfaces)?;
+        let tolerances: Vec<Tolerance> = surfaces.iter().map(|s| self.tolerance(s, &placed.grid)).collect();
+        let flatness: Vec<f64> = tolerances.iter().map(|t| t.flatness()).collect();
+        let reach = if self.planes == Planes::AsGiven {
+            0.0
+        } else {
+            tolerances.iter().map(|t| t.planes()).fold(0.0, f64::max)
+        };
+        let mut soup = Soup::new(surfaces, placed, &flatness);
+        watch.lap(stats, "soup");
+        let mut pairs = BoxTree::new(&facet_boxes(&soup, reach)).pairs();
+        watch.lap(stats, "pairs");
+        if self.planes == Planes::AsGiven {
+            return Ok((soup, pairs));
+        }
+        let mut report = Report::default();
+        for stage in [Stage::Points, Stage::Planes] {
+            let canonicaliser = Canonicaliser { soup: &soup, pairs: &pairs, tolerances: &tolerances };
+            if let Some(placed) = canonicaliser.placed(stage, &mut report) {
+                soup = Soup::new(surfaces, placed, &flatness);
+                pairs = BoxTree::new(&facet_boxes(&soup, reach)).pairs();
+            }
+        }
+        stats.canonical_planes = report.planes;
+        stats.moved_points = report.moved;
+        stats.farthest_move = report.farthest * soup.grid.step();
+        watch.lap(stats, "planes");
+        Ok((soup, pairs))
+    }
+
+    fn tolerance(&self, surface: &Surface, grid: &Grid) -> Tolerance {
+        let source = match self.planes {
+            Planes::AsGiven => 0.0,
+            Planes::Within(length) => length,
+            Planes::Canonical => {
+                let size = surface
+                    .points
+                    .bounds()
+                    .map_or(0.0, |(lo, hi)| lo.iter().chain(&hi).fold(0.0, |size: f64, x| size.max(x.abs())));
+                surface.precision.rounding_error(size)
+            }
+        };
+        Tolerance { error: (grid.coarseness() / 2.0).max(source / grid.step()) }
+    }
+
     fn check(&self, test: impl FnOnce() -> Result<(), check::Failure>) -> Result<(), ArrangementError> {
         match self.checks {
             Checks::Off => Ok(()),
@@ -159,13 +241,14 @@ impl Arranger {
     }
 }
 
-fn facet_boxes(soup: &Soup) -> Vec<Aabb> {
+/// The boxes of the facets, larger by `reach` on all sides.
+fn facet_boxes(soup: &Soup, reach: f64) -> Vec<Aabb> {
     soup.facet_edges
         .iter()
         .map(|edges| {
-            Aabb::around(
-                edges.iter().map(|&e| soup.geometry.points[soup.directed(e)[0] as usize].map(|x| x as f64)),
-            )
+            let corners = edges.iter().map(|&e| soup.geometry.position(soup.directed(e)[0]));
+            let tight = Aabb::around(corners);
+            Aabb { lo: tight.lo.map(|x| x - reach), hi: tight.hi.map(|x| x + reach) }
         })
         .collect()
 }
@@ -179,7 +262,7 @@ fn contacts(soup: &Soup, pairs: &[[u32; 2]]) -> Contacts {
         }
         out
     });
-    let n_points = soup.geometry.points.len() as u32;
+    let n_points = soup.geometry.n_points() as u32;
     parts.into_iter().fold(Contacts::default(), |mut all, part| {
         all.append(part, n_points);
         all
@@ -307,8 +390,7 @@ fn positions(soup: &Soup, vertices: &[crate::kernel::Vertex]) -> Points {
     let offset = soup.grid.offset();
     let mut coords = Vec::with_capacity(3 * vertices.len());
     for v in vertices {
-        let steps =
-            if offset == [0; 3] { v.at } else { soup.geometry.exact_point(&v.def).rounded_after(offset) };
+        let steps = if offset == [0; 3] { v.at } else { soup.geometry.rounded_after(v, offset) };
         coords.extend(steps.map(|x| soup.grid.length(x)));
     }
     Points::from_columns(3, coords)

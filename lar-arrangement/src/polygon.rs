@@ -1,10 +1,10 @@
 //! Stage 1b: one input polygon on the grid → facets that are exactly planar.
 //!
-//! A triangle is a facet. A larger polygon is kept whole when its corners are exactly coplanar on the grid and its
-//! loops are simple; otherwise it is triangulated with diagonals inside. Everything here is exact: coordinates
-//! are integers, orientation is computed in 128 bits.
+//! A triangle is a facet. A larger polygon is kept whole when its corners are exactly coplanar and its loops are
+//! simple; otherwise it is triangulated with diagonals inside. What decides is exact. Only the choice of three
+//! corners and of diagonals looks at the nearest grid points instead of rational corners: any choice is right.
 
-use crate::kernel::{Plane, Sign};
+use crate::kernel::{Geometry, Plane, Sign};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
 /// Polygons with more corners are triangulated even when planar, so that testing a pair of facets has bounded cost.
@@ -13,18 +13,21 @@ const MAX_CORNERS: usize = 64;
 /// What becomes of a polygon.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum Shape {
-    /// Exactly planar: kept whole. Three corners that span its plane, counter-clockwise about the normal.
-    Planar { base: [u32; 3] },
+    /// Exactly planar: kept whole. Three corners that span its plane, counter-clockwise about the normal on the grid,
+    /// and whether the loops turn counter-clockwise seen along the plane's dominant axis.
+    Planar { base: [u32; 3], positive: bool },
     /// Cut into triangles, oriented like the polygon.
     Triangles(Vec<[u32; 3]>),
     /// All corners on one line: it has no inside.
     Degenerate,
 }
 
-/// A polygon on the grid: loops of grid points, the outer one first.
+/// A polygon: loops of points, the outer one first.
 pub(crate) struct Polygon<'a> {
-    pub points: &'a [[i64; 3]],
+    pub geometry: &'a Geometry,
     pub loops: &'a [&'a [u32]],
+    /// The shared plane that it was given.
+    pub plane: Option<u32>,
 }
 
 impl Polygon<'_> {
@@ -37,28 +40,51 @@ impl Polygon<'_> {
     }
 
     fn at(&self, p: u32) -> [i64; 3] {
-        self.points[p as usize]
+        self.geometry.nearest_grid_point(p)
     }
 
     /// Decides the shape.
     pub(crate) fn shape(&self) -> Shape {
-        if let [[a, b, c]] = self.loops {
-            let plane = Plane::through(self.at(*a), self.at(*b), self.at(*c));
-            return if plane.n == [0; 3] { Shape::Degenerate } else { Shape::Planar { base: [*a, *b, *c] } };
-        }
         let Some(base) = self.spanning_corners() else {
             return Shape::Degenerate;
         };
         let [a, b, c] = base;
         let plane = Plane::through(self.at(a), self.at(b), self.at(c));
-        let axis = dominant_axis(plane.n);
+        let axis = match self.plane {
+            Some(shared) => self.geometry.dominant_axis_of_plane(shared).0,
+            None => dominant_axis(plane.n),
+        };
         let area = self.projected_area(axis);
-        let planar = self.corners().all(|p| plane.side(self.at(p)) == 0);
-        if planar && area != 0 && self.corners().count() <= MAX_CORNERS && self.is_simple(axis) {
+        if self.is_planar(&plane)
+            && area.unsigned_abs() > self.area_slack(axis)
+            && self.corners().count() <= MAX_CORNERS
+            && self.is_simple(axis)
+        {
             let agrees = (area > 0) == (plane.n[axis] > 0);
-            return Shape::Planar { base: if agrees { base } else { [a, c, b] } };
+            return Shape::Planar { base: if agrees { base } else { [a, c, b] }, positive: area > 0 };
         }
         Shape::Triangles(self.triangles(axis, area >= 0))
+    }
+
+    /// Whether all corners lie on one plane, which is the given one, or that of three corners on the grid.
+    fn is_planar(&self, plane: &Plane) -> bool {
+        match self.plane {
+            Some(shared) => self.corners().all(|p| self.geometry.is_defined_on(p, shared)),
+            None => self.corners().all(|p| self.geometry.grid_point(p).is_some_and(|x| plane.side(x) == 0)),
+        }
+    }
+
+    /// By how much the projected area may differ from that of the exact corners, which are less than a step from the
+    /// nearest grid points: twice the area, so two steps times the sum of all sides.
+    fn area_slack(&self, axis: usize) -> u128 {
+        if self.corners().all(|p| self.geometry.grid_point(p).is_some()) {
+            return 0;
+        }
+        let side = |[p, q]: [u32; 2]| {
+            let ([pu, pv], [qu, qv]) = (self.projected(p, axis), self.projected(q, axis));
+            u128::from(pu.abs_diff(qu)) + u128::from(pv.abs_diff(qv)) + 2
+        };
+        2 * self.edges().map(side).sum::<u128>()
     }
 
     /// How far, in grid steps, the corners lie from the plane of the three that span it.
@@ -122,10 +148,13 @@ impl Polygon<'_> {
 
     /// Whether two edges share a point other than a common end.
     fn edges_meet(&self, [a, b]: [u32; 2], [c, d]: [u32; 2], axis: usize) -> bool {
-        let turn = |p, q, r| turn(self.projected(p, axis), self.projected(q, axis), self.projected(r, axis));
+        let geometry = self.geometry;
+        let turn = |p, q, r| geometry.turn_to([p, q], r, axis);
         let within = |p: u32, q: u32, r: u32| {
-            let (p, q, r) = (self.projected(p, axis), self.projected(q, axis), self.projected(r, axis));
-            (0..2).all(|k| p[k].min(q[k]) <= r[k] && r[k] <= p[k].max(q[k]))
+            [(axis + 1) % 3, (axis + 2) % 3].into_iter().all(|k| {
+                let (from_p, to_q) = (geometry.cmp_points(p, r, k), geometry.cmp_points(r, q, k));
+                from_p.is_eq() || to_q.is_eq() || from_p == to_q
+            })
         };
         let shared = [a, b].into_iter().filter(|p| [c, d].contains(p)).count();
         if shared == 1 {

@@ -6,7 +6,7 @@
 
 use crate::error::ArrangementError;
 use crate::grid::Grid;
-use crate::kernel::Geometry;
+use crate::kernel::{Geometry, Sign};
 use crate::polygon::{Polygon, Shape};
 use lar_core::{Cells, Surface};
 use rustc_hash::FxHashMap;
@@ -20,6 +20,31 @@ pub struct Parent {
     pub face: u32,
     /// +1 or −1: the same orientation or the opposite one.
     pub sign: i8,
+}
+
+/// Grid point by its coordinates.
+pub(crate) type PointIds = FxHashMap<[i64; 3], u32>;
+
+/// The vertices of the input in their places.
+#[derive(Debug)]
+pub(crate) struct Placed {
+    pub grid: Grid,
+    pub geometry: Geometry,
+    pub point_ids: PointIds,
+    /// The point of each vertex of each surface.
+    pub point_of: Vec<Vec<u32>>,
+    /// The shared plane of each face of each surface; empty when there is none.
+    pub plane_of_face: Vec<Vec<Option<u32>>>,
+}
+
+impl Placed {
+    /// Snaps and unifies; refuses non-finite coordinates and indices out of range.
+    pub(crate) fn snapped(surfaces: &[Surface]) -> Result<Self, ArrangementError> {
+        let grid = fitted_grid(surfaces)?;
+        let (points, point_ids, point_of) = unified_points(surfaces, &grid);
+        let geometry = Geometry::new(points);
+        Ok(Self { grid, geometry, point_ids, point_of, plane_of_face: Vec::new() })
+    }
 }
 
 /// The input on the grid.
@@ -43,7 +68,9 @@ pub(crate) struct Soup {
     /// Edge by its ends.
     edge_ids: FxHashMap<[u32; 2], u32>,
     /// Grid point by its coordinates.
-    pub point_ids: FxHashMap<[i64; 3], u32>,
+    pub point_ids: PointIds,
+    /// The point of each vertex of each surface.
+    pub point_of: Vec<Vec<u32>>,
     /// Coefficient of each surface's faces in the boundary of its solid.
     pub coefficients: Vec<Vec<i8>>,
     /// Input faces without an inside (all corners on one line after snapping).
@@ -53,16 +80,15 @@ pub(crate) struct Soup {
 }
 
 impl Soup {
-    /// Snaps and unifies; refuses non-finite coordinates and indices out of range.
+    /// Makes facets of the faces.
     ///
-    /// Polygons whose corners deviate from a plane by more than `flatness` grid steps (or neighbouring `f64`, far
-    /// from 0) are not treated as planar: their diagonals become edges of the result.
-    pub(crate) fn new(surfaces: &[Surface], flatness: f64) -> Result<Self, ArrangementError> {
-        let grid = fitted_grid(surfaces)?;
-        let (points, point_ids, point_of) = unified_points(surfaces, &grid);
+    /// Polygons whose corners deviate from a plane by more than `flatness[solid]` grid steps are not treated as planar:
+    /// their diagonals become edges of the result.
+    pub(crate) fn new(surfaces: &[Surface], placed: Placed, flatness: &[f64]) -> Self {
+        let Placed { grid, geometry, point_ids, point_of, plane_of_face } = placed;
         let mut builder = Builder {
             soup: Self {
-                geometry: Geometry::new(points),
+                geometry,
                 grid,
                 edges: Vec::new(),
                 soft: Vec::new(),
@@ -73,6 +99,7 @@ impl Soup {
                 polygon_flat: Vec::new(),
                 edge_ids: FxHashMap::default(),
                 point_ids,
+                point_of: Vec::new(),
                 coefficients: Vec::new(),
                 degenerate: 0,
                 triangulated: 0,
@@ -81,19 +108,23 @@ impl Soup {
             polygon_ids: FxHashMap::default(),
             parents: Vec::new(),
             directed: Vec::new(),
-            flatness: flatness * grid.coarseness(),
+            flatness: 0.0,
+            plane: None,
         };
         let n_faces = surfaces.iter().map(Surface::n_faces).sum();
         builder.parents.reserve(n_faces);
         builder.triangle_ids.reserve(n_faces);
         builder.soup.edge_ids.reserve(n_faces * 3 / 2);
         for (solid, (surface, point_of)) in surfaces.iter().zip(&point_of).enumerate() {
+            builder.flatness = flatness[solid];
             for face in 0..surface.n_faces() {
+                builder.plane = plane_of_face.get(solid).and_then(|planes| planes[face]);
                 builder.push_face(solid, surface, face, point_of);
             }
             builder.soup.coefficients.push((0..surface.n_faces()).map(|f| surface.coefficient(f)).collect());
         }
-        Ok(builder.finished())
+        builder.soup.point_of = point_of;
+        builder.finished()
     }
 
     pub(crate) fn n_facets(&self) -> usize {
@@ -115,6 +146,11 @@ impl Soup {
     pub(crate) fn plane_class(&self, facet: u32) -> u32 {
         let polygon = self.facet_polygon[facet as usize];
         if self.polygon_flat[polygon as usize] { polygon } else { self.polygon_flat.len() as u32 + facet }
+    }
+
+    /// Whether a facet is (a piece of) a polygon that is meant to be planar.
+    pub(crate) fn is_flat(&self, facet: u32) -> bool {
+        self.polygon_flat[self.facet_polygon[facet as usize] as usize]
     }
 
     /// Parents of a facet.
@@ -161,8 +197,6 @@ fn fitted_grid(surfaces: &[Surface]) -> Result<Grid, ArrangementError> {
     Ok(if lo[0] <= hi[0] { Grid::fitted(lo, hi) } else { Grid::fitted([0.0; 3], [0.0; 3]) })
 }
 
-type PointIds = FxHashMap<[i64; 3], u32>;
-
 /// Distinct grid points in first-seen order, their numbers, and for each surface the grid point of each of its
 /// vertices.
 fn unified_points(surfaces: &[Surface], grid: &Grid) -> (Vec<[i64; 3]>, PointIds, Vec<Vec<u32>>) {
@@ -196,7 +230,10 @@ struct Builder {
     parents: Vec<(u32, Parent)>,
     /// Buffer for the edges of one facet.
     directed: Vec<u32>,
+    /// That of the surface at hand.
     flatness: f64,
+    /// The shared plane of the face at hand.
+    plane: Option<u32>,
 }
 
 impl Builder {
@@ -221,13 +258,11 @@ impl Builder {
             self.push_parent(polygon, solid, face, reversed == first_reversed);
             return;
         }
-        let corner = |p: u32| self.soup.geometry.points[p as usize];
-        if crate::kernel::Plane::through(corner(a), corner(b), corner(c)).n == [0; 3] {
+        let polygon = self.soup.polygon_flat.len() as u32;
+        if !self.push_triangle_facet([a, b, c], polygon, |_| false) {
             self.soup.degenerate += 1;
             return;
         }
-        let polygon = self.soup.polygon_flat.len() as u32;
-        self.push_facet([a, b, c], [[a, b], [b, c], [c, a]].into_iter(), polygon, |_| false);
         self.soup.polygon_flat.push(true);
         self.push_parent(polygon, solid, face, true);
         self.triangle_ids.insert(key, (polygon, reversed));
@@ -291,11 +326,19 @@ impl Builder {
     /// Adds the facets of a polygon, and tells whether it counts as planar; `None` when it has no inside.
     fn push_polygon(&mut self, loops: &[Vec<u32>], polygon: u32) -> Option<bool> {
         let views: Vec<&[u32]> = loops.iter().map(Vec::as_slice).collect();
-        let shape = Polygon { points: &self.soup.geometry.points, loops: &views };
+        let shape = Polygon { geometry: &self.soup.geometry, loops: &views, plane: self.plane };
         match shape.shape() {
-            Shape::Planar { base } => {
+            Shape::Planar { base, positive } => {
                 let edges = loops.iter().flat_map(|l| (0..l.len()).map(|i| [l[i], l[(i + 1) % l.len()]]));
-                self.push_facet(base, edges, polygon, |_| false);
+                self.push_edges(edges, polygon, |_| false);
+                let geometry = &mut self.soup.geometry;
+                match self.plane {
+                    Some(plane) => {
+                        let (_, up) = geometry.dominant_axis_of_plane(plane);
+                        geometry.push_facet_on(base, plane, positive != up);
+                    }
+                    None => geometry.push_facet(base),
+                }
                 Some(true)
             }
             Shape::Triangles(triangles) => {
@@ -320,20 +363,47 @@ impl Builder {
         sides.sort_unstable();
         let before = self.soup.n_facets();
         for &[a, b, c] in triangles {
-            let corner = |p: u32| self.soup.geometry.points[p as usize];
-            if crate::kernel::Plane::through(corner(a), corner(b), corner(c)).n == [0; 3] {
-                continue;
-            }
-            let edges = [[a, b], [b, c], [c, a]].into_iter();
-            self.push_facet([a, b, c], edges, polygon, |e| flat && sides.binary_search(&e).is_err());
+            self.push_triangle_facet([a, b, c], polygon, |e| flat && sides.binary_search(&e).is_err());
         }
         self.soup.triangulated += 1;
         self.soup.n_facets() > before
     }
 
-    fn push_facet(
+    /// Adds a triangle; false when its corners are on one line.
+    fn push_triangle_facet(
         &mut self,
-        base: [u32; 3],
+        [a, b, c]: [u32; 3],
+        polygon: u32,
+        is_soft: impl Fn([u32; 2]) -> bool,
+    ) -> bool {
+        if !self.push_plane([a, b, c]) {
+            return false;
+        }
+        self.push_edges([[a, b], [b, c], [c, a]].into_iter(), polygon, is_soft);
+        true
+    }
+
+    /// The plane of a facet of which three corners are given, which turn about its normal: the shared one of the face at hand, when all three are on it. False, and nothing, when they are on one line.
+    fn push_plane(&mut self, base: [u32; 3]) -> bool {
+        let geometry = &mut self.soup.geometry;
+        let plane = self.plane.filter(|&plane| base.iter().all(|&p| geometry.is_defined_on(p, plane)));
+        if let Some(plane) = plane {
+            let (axis, up) = geometry.dominant_axis_of_plane(plane);
+            match geometry.turn_to([base[0], base[1]], base[2], axis) {
+                Sign::Zero => return false,
+                turn => geometry.push_facet_on(base, plane, (turn == Sign::Positive) != up),
+            }
+        } else if geometry.are_collinear(base) {
+            return false;
+        } else {
+            geometry.push_facet(base);
+        }
+        true
+    }
+
+    /// Adds the edges of a facet.
+    fn push_edges(
+        &mut self,
         edges: impl Iterator<Item = [u32; 2]>,
         polygon: u32,
         is_soft: impl Fn([u32; 2]) -> bool,
@@ -348,7 +418,6 @@ impl Builder {
         self.soup.facet_edges.push(&directed);
         self.directed = directed;
         self.soup.facet_polygon.push(polygon);
-        self.soup.geometry.push_facet(base);
     }
 
     fn edge(&mut self, ends: [u32; 2], soft: bool) -> u32 {

@@ -14,6 +14,12 @@ pub struct Stats {
     pub triangulated_polygons: u64,
     /// Input faces without an inside, which were left out.
     pub degenerate_faces: u64,
+    /// Planes that nearly coplanar facets were put on.
+    pub canonical_planes: u64,
+    /// Points of the input that moved to lie on them, or to be one with another point.
+    pub moved_points: u64,
+    /// The farthest that one of them moved, in the input's unit of length.
+    pub farthest_move: f64,
     /// Pairs of facets whose boxes meet.
     pub pairs_tested: u64,
     /// Pairs of facets with a point in common beyond shared corners.

@@ -1,6 +1,6 @@
 //! Polygonal surfaces: faces as oriented loops of vertices, with holes; the input of an arrangement.
 
-use crate::{Affine, AffineError, Cells, Points, TriangleMesh};
+use crate::{Affine, AffineError, Cells, Points, Precision, TriangleMesh};
 
 /// Polygonal faces in 3-space. A face is one outer loop and any number of hole loops, each a cyclic list of
 /// vertices; seen from the tip of its normal the outer loop turns counter-clockwise, holes clockwise.
@@ -15,6 +15,9 @@ pub struct Surface {
     pub name: String,
     /// 3 × n.
     pub points: Points,
+    /// How coarsely the coordinates were rounded where they come from: what tells which faces were meant to be
+    /// coplanar. Readers of files set it; moving the surface keeps it.
+    pub precision: Precision,
     loops: Cells,
     face_loops: Vec<u32>,
     coefficients: Vec<i8>,
@@ -24,7 +27,14 @@ impl Surface {
     /// A surface without faces.
     #[must_use]
     pub fn new(name: impl Into<String>, points: Points) -> Self {
-        Self { name: name.into(), points, loops: Cells::new(), face_loops: vec![0], coefficients: Vec::new() }
+        Self {
+            name: name.into(),
+            points,
+            precision: Precision::F64,
+            loops: Cells::new(),
+            face_loops: vec![0],
+            coefficients: Vec::new(),
+        }
     }
 
     /// Appends a face: its outer loop first, then its holes. Returns its index.
@@ -66,7 +76,14 @@ impl Surface {
     pub fn from_polygons(name: impl Into<String>, points: Points, polygons: Cells) -> Self {
         let n_faces = polygons.len();
         let face_loops = (0..=u32::try_from(n_faces).expect("fewer than 2^32 loops")).collect();
-        Self { name: name.into(), points, loops: polygons, face_loops, coefficients: vec![1; n_faces] }
+        Self {
+            name: name.into(),
+            points,
+            precision: Precision::F64,
+            loops: polygons,
+            face_loops,
+            coefficients: vec![1; n_faces],
+        }
     }
 
     /// The vertices of a triangle mesh and its triangles as faces of coefficient +1.

@@ -5,6 +5,7 @@
 //! is an assertion all the same.
 
 use super::Sign;
+use super::double::Double;
 use std::cmp::Ordering;
 
 /// An integer of at most `64 · N` bits and a sign.
@@ -52,6 +53,13 @@ impl<const N: usize> Int<N> {
     /// The limbs in use, least significant first.
     pub(super) fn magnitude(&self) -> &[u64] {
         &self.limbs[..self.len]
+    }
+
+    /// `self · 2^exponent`, rounded to the nearest `f64`; the result must be a normal number.
+    #[must_use]
+    pub(super) fn to_f64_scaled(self, exponent: i32) -> f64 {
+        let (double, skip) = Double::from_int(&self);
+        double.hi * 2f64.powi(64 * skip as i32 + exponent)
     }
 
     /// `self · 2^shift`.

@@ -4,23 +4,29 @@
 //! fixed-width integers. Nothing here has an epsilon: constants are error bounds, derived where they stand.
 //!
 //! Bit budget, for grid coordinates |x| ≤ 2^40 (b = 40). Every quantity is affine in each single coordinate of the
-//! input, so the first eight are largest at the corners of the cube |x| ≤ 2^40, where a test finds these maxima; the
-//! others are bounded by sums of their products.
+//! input, so the first eight of the grid are largest at the corners of the cube |x| ≤ 2^40, where a test finds these
+//! maxima; the others are bounded by sums of their products. *Canonical* scenes also have planes with coefficients of
+//! 41 bits and points on three of them, *mixed* ones also planes through such points.
 //!
-//! | quantity | bits |
-//! |---|---|
-//! | difference of coordinates | 42 |
-//! | component of a facet's normal | 83 |
-//! | offset of a facet's plane, side of a grid point | 125 |
-//! | line ∩ plane: coordinates, denominator | 165, 125 |
-//! | direction of the line of two facet planes | 166 |
-//! | three planes: coordinates, denominator | 289, 249 |
-//! | side of a three-plane point against a plane | 373 |
-//! | order of two three-plane points along an axis | 538 |
-//! | orientation of three three-plane points in a projection | 827 |
-//! | the same with the midpoint of two of them | 1076 |
+//! | quantity | grid | canonical | mixed |
+//! |---|---|---|---|
+//! | difference of coordinates, times denominators | 42 | 291 | 291 |
+//! | input point: coordinates, denominator | 41, 1 | 166, 124 | 166, 124 |
+//! | component of a facet's normal | 83 | 83 | 459 |
+//! | offset of a facet's plane, side of a grid point | 125 | 125 | 501 |
+//! | plane through an edge along an axis: normal, offset | 42, 83 | 415, 458 | 415, 458 |
+//! | line ∩ plane: coordinates, denominator | 165, 125 | 751, 709 | 794, 752 |
+//! | direction of the line of two facet planes | 166 | 166 | 919 |
+//! | three planes: coordinates, denominator | 289, 249 | 289, 249 | 1422, 1380 |
+//! | side of such a point against a plane | 373 | 1169 | 1883 |
+//! | order of two of them along an axis | 538 | 1460 | 2802 |
+//! | orientation of three of them in a projection | 827 | 2214 | 4227 |
+//! | the same with the midpoint of two of them | 1076 | 2924 | 5608 |
+//! | two of them, order of hits of a ray from their midpoint | 708 | 1629 | 3723 |
 
 mod double;
+mod exact;
+mod geometry;
 mod int;
 mod point;
 mod predicates;
@@ -28,9 +34,12 @@ mod predicates;
 mod tests;
 
 pub(crate) use double::Fraction;
+pub(crate) use geometry::{
+    CanonicalPoints, Geometry, RationalPoint, SharedPlane, Support, Vertex, VertexDef,
+};
 pub(crate) use int::Int;
 pub(crate) use point::{Plane, rounded_quotient};
-pub(crate) use predicates::{Along, Direction, Geometry, Midpoint, Support, Vertex, VertexDef};
+pub(crate) use predicates::{Along, Direction, Midpoint};
 
 /// The sign of an exact quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

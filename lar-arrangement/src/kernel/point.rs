@@ -49,71 +49,112 @@ impl Plane {
         dot(self.n, p) - self.d
     }
 
-    /// Sign of n · p − d for a rational point.
-    pub(crate) fn side_of(&self, p: &HPoint) -> Sign {
-        self.scaled_side(p).sign()
+    /// The same plane in another width.
+    pub(crate) fn widened<const W: usize>(&self) -> PlaneOf<W> {
+        PlaneOf { n: self.n.map(Int::from), d: Int::from(self.d) }
+    }
+}
+
+/// A plane with coefficients of W limbs, every operation done in that width.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PlaneOf<const W: usize> {
+    pub n: [Int<W>; 3],
+    pub d: Int<W>,
+}
+
+impl<const W: usize> PlaneOf<W> {
+    /// The plane through three points, its normal pointing to where they turn counter-clockwise.
+    pub(crate) fn through(a: &HPointOf<W>, b: &HPointOf<W>, c: &HPointOf<W>) -> Self {
+        let [ab, bc, ca] = [wide_cross(&a.x, &b.x), wide_cross(&b.x, &c.x), wide_cross(&c.x, &a.x)];
+        Self { n: std::array::from_fn(|k| ab[k] * c.w + bc[k] * a.w + ca[k] * b.w), d: wide_dot(&a.x, &bc) }
+    }
+
+    /// As `Plane::vertical`, up to a positive factor.
+    pub(crate) fn vertical(a: &HPointOf<W>, b: &HPointOf<W>, axis: usize) -> Self {
+        let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+        let e = |k: usize| b.x[k] * a.w - a.x[k] * b.w;
+        let (nu, nv) = (-e(v), e(u));
+        let mut n = [Int::ZERO; 3];
+        n[u] = nu * a.w;
+        n[v] = nv * a.w;
+        Self { n, d: nu * a.x[u] + nv * a.x[v] }
+    }
+
+    /// The plane that looks the other way.
+    pub(crate) fn opposite(&self) -> Self {
+        Self { n: self.n.map(|x| -x), d: -self.d }
     }
 
     /// (n · p − d) times the (positive) denominator of p.
-    pub(crate) fn scaled_side<const M: usize>(&self, p: &HPointOf<M>) -> Int<11>
-    where
-        Int<M>: Copy,
-    {
-        (0..3)
-            .fold(-(Int::from(self.d) * p.w.resize()), |sum, k| sum + Int::from(self.n[k]) * p.x[k].resize())
+    pub(crate) fn scaled_side(&self, p: &HPointOf<W>) -> Int<W> {
+        wide_dot(&self.n, &p.x) - self.d * p.w
     }
 
-    /// The components of n that are not zero, exactly.
-    pub(crate) fn direction_with(&self, other: &Self) -> [Int<3>; 3] {
-        let [a, b] = [self, other].map(|p| p.n.map(Int::<3>::from));
-        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    /// The direction of the line of two planes.
+    pub(crate) fn direction_with(&self, other: &Self) -> [Int<W>; 3] {
+        wide_cross(&self.n, &other.n)
+    }
+
+    pub(crate) fn widened<const M: usize>(&self) -> PlaneOf<M> {
+        PlaneOf { n: self.n.map(|x| x.resize()), d: self.d.resize() }
     }
 }
 
-/// A point with homogeneous integer coordinates: (x / w), w > 0.
+fn wide_cross<const W: usize>(a: &[Int<W>; 3], b: &[Int<W>; 3]) -> [Int<W>; 3] {
+    let minor = |u: usize, v: usize| a[u] * b[v] - a[v] * b[u];
+    [minor(1, 2), minor(2, 0), minor(0, 1)]
+}
+
+fn wide_dot<const W: usize>(a: &[Int<W>; 3], b: &[Int<W>; 3]) -> Int<W> {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// A point with homogeneous integer coordinates: (x / w), w > 0, every operation done in the width of W limbs.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct HPointOf<const M: usize> {
-    pub x: [Int<M>; 3],
-    pub w: Int<M>,
+pub(crate) struct HPointOf<const W: usize> {
+    pub x: [Int<W>; 3],
+    pub w: Int<W>,
 }
 
-/// Wide enough for a point on three facet planes.
-pub(crate) type HPoint = HPointOf<5>;
-
-impl HPoint {
+impl<const W: usize> HPointOf<W> {
     pub(crate) fn grid(p: [i64; 3]) -> Self {
         Self { x: p.map(Int::from), w: Int::from(1i128) }
     }
 
-    /// The point where the line through p and q meets the plane; p and q must not lie on the same side of it, nor
-    /// both on it.
-    pub(crate) fn on_edge(p: [i64; 3], q: [i64; 3], plane: &Plane) -> Self {
+    /// The point where the line through the grid points p and q meets the plane; they must not lie on the same side
+    /// of it, nor both on it.
+    pub(crate) fn on_grid_edge(p: [i64; 3], q: [i64; 3], plane: &Plane) -> Self {
         let (sp, sq) = (plane.side(p), plane.side(q));
         let (fp, fq) = (Int::from(sp), Int::from(sq));
         let x = std::array::from_fn(|k| Int::from(q[k]) * fp - Int::from(p[k]) * fq);
         Self { x, w: Int::from(sp - sq) }.normalised()
     }
 
+    /// As `on_grid_edge`, for any two points.
+    pub(crate) fn on_edge(p: &Self, q: &Self, plane: &PlaneOf<W>) -> Self {
+        let (sp, sq) = (plane.scaled_side(p), plane.scaled_side(q));
+        Self { x: std::array::from_fn(|k| q.x[k] * sp - p.x[k] * sq), w: q.w * sp - p.w * sq }.normalised()
+    }
+
     /// The point on three planes, `None` when they do not meet in one point.
-    pub(crate) fn on_planes(planes: [&Plane; 3]) -> Option<Self> {
+    pub(crate) fn on_planes(planes: [&PlaneOf<W>; 3]) -> Option<Self> {
         let [a, b, c] = planes;
-        let pairs = [b.direction_with(c), c.direction_with(a), a.direction_with(b)]
-            .map(|d| d.map(|x| x.resize::<5>()));
-        let w = (0..3).fold(Int::ZERO, |sum, k| sum + Int::from(c.n[k]) * pairs[2][k]);
+        let pairs = [b.direction_with(c), c.direction_with(a), a.direction_with(b)];
+        let w = wide_dot(&c.n, &pairs[2]);
         if w.sign() == Sign::Zero {
             return None;
         }
-        let x = std::array::from_fn(|k| {
-            Int::from(a.d) * pairs[0][k] + Int::from(b.d) * pairs[1][k] + Int::from(c.d) * pairs[2][k]
-        });
+        let x = std::array::from_fn(|k| a.d * pairs[0][k] + b.d * pairs[1][k] + c.d * pairs[2][k]);
         Some(Self { x, w }.normalised())
     }
 
     /// The point halfway between two.
-    pub(crate) fn midpoint(&self, other: &Self) -> HPointOf<9> {
-        let [a, b] = [self, other].map(HPoint::widened::<9>);
+    pub(crate) fn midpoint(&self, other: &Self) -> Self {
         let two = Int::from(2i128);
-        HPointOf { x: std::array::from_fn(|k| a.x[k] * b.w + b.x[k] * a.w), w: two * a.w * b.w }
+        Self {
+            x: std::array::from_fn(|k| self.x[k] * other.w + other.x[k] * self.w),
+            w: two * self.w * other.w,
+        }
     }
 
     pub(crate) fn widened<const M: usize>(&self) -> HPointOf<M> {
@@ -131,13 +172,11 @@ impl HPoint {
 
     /// The coordinates of the point moved by an integer vector, correctly rounded.
     pub(crate) fn rounded_after(&self, offset: [i128; 3]) -> [f64; 3] {
-        let w = self.w.resize::<7>();
-        std::array::from_fn(|k| rounded_quotient(&(self.x[k].resize() + Int::from(offset[k]) * w), &w))
+        std::array::from_fn(|k| rounded_quotient(&(self.x[k] + Int::from(offset[k]) * self.w), &self.w))
     }
 
     pub(crate) fn cmp_coordinate(&self, other: &Self, axis: usize) -> std::cmp::Ordering {
-        let (left, right) = (self.widened::<9>(), other.widened::<9>());
-        (left.x[axis] * right.w).cmp(&(right.x[axis] * left.w))
+        (self.x[axis] * other.w).cmp(&(other.x[axis] * self.w))
     }
 
     pub(crate) fn equals(&self, other: &Self) -> bool {
@@ -169,6 +208,10 @@ pub(crate) fn rounded_quotient<const N: usize>(numerator: &Int<N>, denominator: 
     }
 }
 
+/// Limbs that hold the widest numerator and denominator of a vertex, moved from the grid's origin and multiplied by
+/// 54 bits.
+const MIDPOINT: usize = 25;
+
 /// Compares numerator / denominator with (low + high) / 2, low and high being neighbours among the `f64`.
 fn cmp_with_midpoint<const N: usize>(
     numerator: &Int<N>,
@@ -179,7 +222,7 @@ fn cmp_with_midpoint<const N: usize>(
     let ((a, ea), (b, eb)) = (mantissa(low), mantissa(high));
     let e = ea.min(eb);
     let sum = (a << (ea - e)) + (b << (eb - e));
-    let (left, right) = (numerator.resize::<14>(), denominator.resize::<14>() * Int::from(sum));
+    let (left, right) = (numerator.resize::<MIDPOINT>(), denominator.resize::<MIDPOINT>() * Int::from(sum));
     // value = sum · 2^(e − 1)
     match e - 1 {
         up if up >= 0 => left.cmp(&right.shifted(up as u32)),

@@ -1,7 +1,7 @@
 //! Every predicate against arbitrary-precision rationals, on random and on degenerate input, and the bit budget on
 //! the inputs that reach its bounds.
 
-use super::point::HPoint;
+use super::point::{HPointOf, PlaneOf};
 use super::*;
 use dashu_int::IBig;
 use std::cmp::Ordering;
@@ -78,10 +78,6 @@ fn dot(a: &Big3, b: &Big3) -> IBig {
     &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
 }
 
-fn minus(a: &Big3, b: &Big3) -> Big3 {
-    std::array::from_fn(|k| &a[k] - &b[k])
-}
-
 fn sign(x: &IBig) -> Sign {
     Sign::from(x.cmp(&IBig::ZERO))
 }
@@ -107,15 +103,64 @@ impl Exact {
         (&self.x[axis] * &other.w).cmp(&(&other.x[axis] * &self.w))
     }
 
+    fn minus(&self, other: &Self) -> Self {
+        let x = std::array::from_fn(|k| &self.x[k] * &other.w - &other.x[k] * &self.w);
+        Self { x, w: &self.w * &other.w }
+    }
+
     fn midpoint(&self, other: &Self) -> Self {
         let x = std::array::from_fn(|k| &self.x[k] * &other.w + &other.x[k] * &self.w);
         Self { x, w: &self.w * &other.w * IBig::from(2) }
     }
 }
 
+fn exact<const W: usize>(p: &HPointOf<W>) -> Exact {
+    Exact::new(p.x.map(|x| to_big(&x)), to_big(&p.w))
+}
+
+/// The normal with the offset of the plane through a point, up to a positive factor.
+fn with_offset(n: Big3, a: &Exact) -> (Big3, IBig) {
+    let d = dot(&n, &a.x);
+    (n.map(|n| n * &a.w), d)
+}
+
+/// Three planes with coefficients of 41 bits, and the points moved onto one, two or three of them or none.
+fn canonical(points: &[[i64; 3]], random: &mut Random) -> CanonicalPoints {
+    let planes: [Plane; 3] = std::array::from_fn(|_| {
+        let reach = [3, LIMIT, LIMIT, LIMIT][random.below(4)];
+        let mut n = random.point(reach).map(i128::from);
+        n[random.below(3)] = i128::from(LIMIT);
+        let through = points[random.below(points.len())];
+        Plane { n, d: (0..3).map(|k| n[k] * i128::from(through[k])).sum() }
+    });
+    let mut out = CanonicalPoints::default();
+    for p in points {
+        let mut on: Vec<u32> = (0..3).filter(|_| random.below(2) == 0).collect();
+        let axes = (0..3).map(|k| {
+            let n = std::array::from_fn(|j| i128::from(j == k));
+            Plane { n, d: i128::from(p[k]) }
+        });
+        let wide: Vec<PlaneOf<3>> =
+            on.iter().map(|&i| planes[i as usize]).chain(axes).map(|plane| plane.widened()).collect();
+        let rational = HPointOf::on_planes([&wide[0], &wide[1], &wide[2]])
+            .filter(|point| exact(point).is_within_range() && !on.is_empty());
+        if let Some(point) = rational {
+            out.rational.push(point);
+            out.entry.push(out.rational.len() as u32);
+        } else {
+            on.clear();
+            out.entry.push(0);
+        }
+        out.planes_of_point.push(&on);
+    }
+    out.planes = planes.iter().map(Plane::widened).collect();
+    out
+}
+
 /// Points, facets and vertices of every kind, with what they are exactly.
 struct Scene {
     geometry: Geometry,
+    corners: Vec<Exact>,
     n_facets: u32,
     bases: Vec<[u32; 3]>,
     supports: Vec<Support>,
@@ -126,32 +171,51 @@ struct Scene {
 impl Scene {
     const POINTS: usize = 12;
 
+    /// Every third scene has canonical planes; every second of these may have planes through rational points.
     fn new(seed: u64) -> Self {
         let random = &mut Random(seed);
+        let points = random.points(Self::POINTS);
+        let canonical = if seed.is_multiple_of(3) { canonical(&points, random) } else { Default::default() };
+        let corner = |(p, entry): (&[i64; 3], u32)| match entry.checked_sub(1) {
+            None => Exact { x: big(*p), w: IBig::ONE },
+            Some(i) => exact(&canonical.rational[i as usize]),
+        };
+        let entries = canonical.entry.iter().copied().chain(std::iter::repeat(0));
+        let corners = points.iter().zip(entries).map(corner).collect();
         let mut scene = Self {
-            geometry: Geometry::new(random.points(Self::POINTS)),
+            geometry: Geometry::canonical(points, canonical),
+            corners,
             n_facets: 0,
             bases: Vec::new(),
             supports: Vec::new(),
             vertices: Vec::new(),
             directions: Vec::new(),
         };
-        scene.push_supports(random);
+        scene.push_supports(random, seed.is_multiple_of(6));
         scene.push_vertices(random);
         scene.push_directions(random);
         scene
     }
 
-    fn corner(&self, p: u32) -> Big3 {
-        big(self.geometry.points[p as usize])
-    }
-
-    fn push_supports(&mut self, random: &mut Random) {
+    fn push_supports(&mut self, random: &mut Random, mixed: bool) {
         for _ in 0..20 {
             let base = [0; 3].map(|_| random.below(Self::POINTS) as u32);
-            let [a, b, c] = base.map(|p| self.corner(p));
-            if self.n_facets < 8 && cross(&minus(&b, &a), &minus(&c, &a)) != [IBig::ZERO; 3] {
-                self.geometry.push_facet(base);
+            let (n, _) = self.plane_through(base);
+            let collinear = n == [IBig::ZERO; 3];
+            assert_eq!(self.geometry.are_collinear(base), collinear);
+            if self.n_facets < 8 && !collinear {
+                let shared =
+                    (0..3).find(|&plane| base.iter().all(|&p| self.geometry.is_defined_on(p, plane)));
+                match shared {
+                    Some(plane) => {
+                        let (axis, up) = self.geometry.dominant_axis_of_plane(plane);
+                        self.geometry.push_facet_on(base, plane, (n[axis] > IBig::ZERO) != up);
+                    }
+                    None if mixed || base.iter().all(|&p| self.geometry.grid_point(p).is_some()) => {
+                        self.geometry.push_facet(base);
+                    }
+                    None => continue,
+                }
                 self.bases.push(base);
                 self.supports.push(Support::Facet(self.n_facets));
                 self.n_facets += 1;
@@ -169,20 +233,20 @@ impl Scene {
     /// n and d of the plane n · x = d, from the definition of the support.
     fn plane(&self, support: Support) -> (Big3, IBig) {
         let (a, n) = match support {
-            Support::Facet(f) => {
-                let [a, b, c] = self.bases[f as usize].map(|p| self.corner(p));
-                let n = cross(&minus(&b, &a), &minus(&c, &a));
-                (a, n)
-            }
+            Support::Facet(f) => return self.plane_through(self.bases[f as usize]),
             Support::Vertical { ends, axis } => {
-                let [a, b] = ends.map(|p| self.corner(p));
+                let [a, b] = ends.map(|p| self.point(p));
                 let up = std::array::from_fn(|k| IBig::from(i64::from(k == axis as usize)));
-                let n = cross(&up, &minus(&b, &a));
+                let n = cross(&up, &b.minus(&a).x);
                 (a, n)
             }
         };
-        let d = dot(&n, &a);
-        (n, d)
+        with_offset(n, &a)
+    }
+
+    fn plane_through(&self, base: [u32; 3]) -> (Big3, IBig) {
+        let [a, b, c] = base.map(|p| self.point(p));
+        with_offset(cross(&b.minus(&a).x, &c.minus(&a).x), &a)
     }
 
     fn side(&self, p: &Exact, support: Support) -> Sign {
@@ -190,14 +254,14 @@ impl Scene {
         sign(&(dot(&n, &p.x) - d * &p.w))
     }
 
-    fn grid(&self, p: u32) -> Exact {
-        Exact { x: self.corner(p), w: IBig::ONE }
+    fn point(&self, p: u32) -> Exact {
+        self.corners[p as usize].clone()
     }
 
     fn push_vertices(&mut self, random: &mut Random) {
         for _ in 0..6 {
             let p = random.below(Self::POINTS) as u32;
-            self.vertices.push((self.geometry.grid_vertex(p), self.grid(p)));
+            self.vertices.push((self.geometry.point_vertex(p), self.point(p)));
         }
         for _ in 0..24 {
             if let Some(&support) = self.supports.get(random.below(self.supports.len().max(1))) {
@@ -213,12 +277,12 @@ impl Scene {
 
     /// p + s (q − p), s = side(p) / (side(p) − side(q)).
     fn push_edge_vertex(&mut self, ends: [u32; 2], support: Support) {
-        let [p, q] = ends.map(|p| self.grid(p));
+        let [p, q] = ends.map(|p| self.point(p));
         if self.side(&p, support).times(self.side(&q, support)) == Sign::Negative {
             let (n, d) = self.plane(support);
-            let (at_p, at_q) = (dot(&n, &p.x) - &d, dot(&n, &q.x) - &d);
-            let w = &at_p - at_q;
-            let x = std::array::from_fn(|k| &p.x[k] * &w + &at_p * (&q.x[k] - &p.x[k]));
+            let (at_p, at_q) = (dot(&n, &p.x) - &d * &p.w, dot(&n, &q.x) - &d * &q.w);
+            let w = &at_p * &q.w - &at_q * &p.w;
+            let x = std::array::from_fn(|k| &at_p * &q.x[k] - &at_q * &p.x[k]);
             self.vertices.push((self.geometry.edge_vertex(ends, support), Exact::new(x, w)));
         }
     }
@@ -248,7 +312,7 @@ impl Scene {
     fn push_directions(&mut self, random: &mut Random) {
         for _ in 0..5 {
             let ends = [0; 2].map(|_| random.below(Self::POINTS) as u32);
-            let exact = minus(&self.corner(ends[1]), &self.corner(ends[0]));
+            let exact = self.point(ends[1]).minus(&self.point(ends[0])).x;
             self.push_direction(Along::Edge(ends), exact, random);
         }
         for _ in 0..8 {
@@ -281,7 +345,7 @@ fn on_scenes(n: u64, test: impl Fn(&Scene, u64) -> usize) -> usize {
 fn definitions_give_the_exact_points_and_round_correctly() {
     let compared = on_scenes(50_000, |scene, seed| {
         for (vertex, exact) in &scene.vertices {
-            let found = scene.geometry.exact_point(&vertex.def);
+            let found = scene.geometry.exact_point::<23>(&vertex.def);
             let (x, w) = (found.x.map(|x| to_big(&x)), to_big(&found.w));
             assert!(w > IBig::ZERO, "seed {seed}: {:?} has the denominator {w}", vertex.def);
             for (k, x) in x.iter().enumerate() {
@@ -306,7 +370,7 @@ fn sides_of_planes() {
         }
         for p in 0..Scene::POINTS as u32 {
             for f in 0..scene.n_facets {
-                let expected = scene.side(&scene.grid(p), Support::Facet(f));
+                let expected = scene.side(&scene.point(p), Support::Facet(f));
                 assert_eq!(scene.geometry.side_of_point(p, f), expected, "seed {seed}: {p} against {f}");
             }
         }
@@ -480,8 +544,8 @@ fn quotients_round_to_nearest_even() {
             if random.below(2) == 0 { -x } else { x }
         });
         let offset = [0; 3].map(|_| i128::from(random.within(i64::MAX / 2)) << random.below(30));
-        let point = HPoint { x, w };
-        let (at, moved) = (point.rounded(), point.rounded_after(offset));
+        let point = HPointOf { x, w };
+        let (at, moved) = (point.rounded(), point.widened::<7>().rounded_after(offset));
         let (x, w) = (x.map(|x| to_big(&x)), to_big(&w));
         for k in 0..3 {
             check_rounding(&x[k], &w, at[k], seed);
@@ -582,20 +646,90 @@ fn bit_budget_holds_at_the_extremes() {
 /// The same through the fixed-width integers themselves, which assert that nothing overflows.
 #[test]
 fn nothing_overflows_at_the_extremes() {
+    let mut reached = [0; 3];
     for seed in 0..3_000 {
         let random = &mut Random(seed);
         let points: Vec<[i64; 3]> =
             (0..9).map(|_| std::array::from_fn(|_| [-LIMIT, LIMIT][random.below(2)])).collect();
-        let planes: Vec<Plane> = points
-            .chunks(3)
-            .map(|corners| Plane::through(corners[0], corners[1], corners[2]))
-            .filter(|plane| plane.n != [0; 3])
-            .collect();
-        let [a, b, c] = planes.as_slice() else { continue };
-        let Some(point) = HPoint::on_planes([a, b, c]) else { continue };
-        let middle = point.midpoint(&point);
-        assert!(point.equals(&point) && middle.w.sign() == Sign::Positive, "seed {seed}");
-        assert!([a, b, c].iter().all(|p| p.side_of(&point) == Sign::Zero), "seed {seed}");
-        assert!([a, b, c].iter().all(|p| p.scaled_side(&middle).sign() == Sign::Zero), "seed {seed}");
+        let canonical = match seed % 3 {
+            0 => CanonicalPoints::default(),
+            _ => extreme(&points, random),
+        };
+        let mut geometry = Geometry::canonical(points, canonical);
+        let mut n_facets = 0;
+        for base in [[0, 1, 2], [3, 4, 5], [6, 7, 8], [0, 4, 8]] {
+            let is_grid = base.iter().all(|&p| geometry.grid_point(p).is_some());
+            if !geometry.are_collinear(base) && (is_grid || seed % 3 == 2) {
+                geometry.push_facet(base);
+                n_facets += 1;
+            }
+        }
+        reached[geometry.reach() as usize] += 1;
+        exercise(&geometry, n_facets);
+    }
+    assert!(reached.iter().all(|&n| n > 300), "{reached:?}");
+}
+
+/// Points on planes whose coefficients are all ±2^40 or zero.
+fn extreme(points: &[[i64; 3]], random: &mut Random) -> CanonicalPoints {
+    let mut out = CanonicalPoints::default();
+    for _ in points {
+        let planes: [PlaneOf<3>; 3] = std::array::from_fn(|_| {
+            let mut n: [i128; 3] =
+                std::array::from_fn(|_| i128::from([-LIMIT, LIMIT, LIMIT - 1][random.below(3)]));
+            n[random.below(3)] = [0, 1 << 40][random.below(2)];
+            let d = 3 * i128::from(LIMIT) * i128::from(LIMIT) * [-1, 1][random.below(2)];
+            Plane { n, d }.widened()
+        });
+        let point = HPointOf::on_planes([&planes[0], &planes[1], &planes[2]]);
+        out.rational.extend(point);
+        out.entry.push(if point.is_some() { out.rational.len() as u32 } else { 0 });
+    }
+    out
+}
+
+/// Every exact predicate on some vertices of each kind.
+fn exercise(geometry: &Geometry, n_facets: u32) {
+    let facets: Vec<Support> = (0..n_facets).map(Support::Facet).collect();
+    let vertical = (0..3).map(|axis| Support::Vertical { ends: [0, 3], axis });
+    let mut defs = vec![VertexDef::Point(4)];
+    for support in facets.iter().copied().chain(vertical) {
+        let sides = [5, 7].map(|p| geometry.exact_side(&VertexDef::Point(p), support));
+        if sides[0].times(sides[1]) == Sign::Negative {
+            defs.push(VertexDef::EdgePlane { ends: [5, 7], support });
+        }
+    }
+    if n_facets > 2 {
+        let [a, b, c] = [0, 1, 2].map(|f| geometry.wide_plane::<30>(Support::Facet(f)));
+        defs.extend(HPointOf::on_planes([&a, &b, &c]).map(|_| VertexDef::Facets([0, 1, 2])));
+    }
+    for p in &defs {
+        assert!(geometry.exact_equality(p, p) && geometry.exact_order(p, p, 0).is_eq());
+        geometry.moved_and_rounded(p, [1 << 93; 3]);
+        for q in &defs {
+            let middle = Midpoint { at: [0.0; 3], of: [*p, *q] };
+            geometry.exact_orientation(p, q, &middle, 0, 1);
+            geometry.exact_order_with_midpoint(p, &middle, 2);
+            for f in 0..n_facets {
+                geometry.exact_side(p, Support::Facet(f));
+                geometry.exact_side_of_midpoint(&middle, f);
+                let hit = (0..n_facets).map(|g| geometry.exact_order_of_hits(&middle, [f, g]));
+                assert!(hit.count() == n_facets as usize);
+            }
+        }
+    }
+    let edges = [[0, 1], [2, 6]].map(Along::Edge).into_iter();
+    let lines = (1..n_facets).map(|f| Along::Facets([0, f]));
+    let directions: Vec<Direction> = edges.chain(lines).map(|along| geometry.direction(along)).collect();
+    for d in &directions {
+        geometry.exact_axis(d);
+        (0..n_facets).for_each(|f| assert_eq!(geometry.exact_turn_about(f, f, d), Sign::Zero));
+        for f in 1..n_facets {
+            geometry.exact_turn_about(0, f, d);
+        }
+        assert_eq!(geometry.exact_turn(d, d, 0, 1), Sign::Zero);
+        for e in &directions {
+            geometry.exact_turn(d, e, 1, 2);
+        }
     }
 }

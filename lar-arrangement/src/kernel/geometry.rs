@@ -1,0 +1,314 @@
+//! The input on the grid: points, planes of facets, and the vertices that are defined by them.
+//!
+//! Most points are grid points and most planes go through three of them. Where facets were made coplanar, corners
+//! are rational points on planes with small coefficients, and a facet between such corners that is on none of these
+//! planes has one with large coefficients. Exact arithmetic takes its width from the worst that the scene holds.
+
+use super::point::{HPointOf, Plane, PlaneOf};
+use super::{Int, Sign};
+use lar_core::Cells;
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+
+/// How often the `f64` filters could not decide and exact integers did.
+#[derive(Debug, Default)]
+pub(crate) struct Counters {
+    exact: AtomicU64,
+}
+
+impl Counters {
+    /// Number of predicates that were decided by exact integers.
+    #[must_use]
+    pub(crate) fn exact(&self) -> u64 {
+        self.exact.load(Relaxed)
+    }
+
+    pub(super) fn count(&self) {
+        self.exact.fetch_add(1, Relaxed);
+    }
+}
+
+/// A plane by reference: that of a facet, or the one through an input edge parallel to a coordinate axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) enum Support {
+    Facet(u32),
+    Vertical { ends: [u32; 2], axis: u8 },
+}
+
+/// What a vertex is. Numbers of input points and facets; never a measured position.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) enum VertexDef {
+    /// A point of the input.
+    Point(u32),
+    /// The line through two input points meets a plane.
+    EdgePlane { ends: [u32; 2], support: Support },
+    /// Three facet planes.
+    Facets([u32; 3]),
+}
+
+/// A vertex: its definition and its position in grid units, correctly rounded, so that equal points have equal
+/// positions, and a coordinate that is smaller when rounded is smaller exactly.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Vertex {
+    pub at: [f64; 3],
+    pub def: VertexDef,
+}
+
+/// f64 image of a facet's plane: `normal` is the exact one rounded (relative error 2^-53 a component, and a
+/// positive factor), `origin` a point on it, rounded, and `slack` bounds what that rounding does to a side.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FloatPlane {
+    pub normal: [f64; 3],
+    pub origin: [f64; 3],
+    pub slack: f64,
+}
+
+/// What exact arithmetic has to hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Reach {
+    /// Points of the grid and planes through them.
+    #[default]
+    Grid,
+    /// Also points on planes of small coefficients.
+    Canonical,
+    /// Also planes through such points.
+    Mixed,
+}
+
+/// Limbs of a plane through three rational points.
+pub(super) const PLANE_LIMBS: usize = 8;
+
+/// A plane that facets share.
+pub(crate) type SharedPlane = PlaneOf<PLANE_LIMBS>;
+
+/// An input point on up to three planes of small coefficients.
+pub(crate) type RationalPoint = HPointOf<3>;
+
+/// The points of the input, some of them rational, and the planes that facets share.
+#[derive(Debug, Default)]
+pub(crate) struct CanonicalPoints {
+    /// For each point 0, or the number of its entry in `rational`, counted from 1; empty when there is none.
+    pub entry: Vec<u32>,
+    pub rational: Vec<RationalPoint>,
+    pub planes: Vec<SharedPlane>,
+    /// The shared planes that each point lies on; empty when there is none.
+    pub planes_of_point: Cells,
+}
+
+/// The input on the grid and the predicates over it.
+#[derive(Debug, Default)]
+pub(crate) struct Geometry {
+    /// Grid points; of a rational point the nearest one.
+    points: Vec<[i64; 3]>,
+    canonical: CanonicalPoints,
+    /// Positions of the rational points, correctly rounded.
+    positions: Vec<[f64; 3]>,
+    bases: Vec<[u32; 3]>,
+    /// For each facet 0, or 1 + 2 · shared plane, + 1 when it looks the other way; empty in a scene without any.
+    plane_codes: Vec<u32>,
+    /// The first facet on each shared plane.
+    first_on_plane: Vec<u32>,
+    planes: Vec<FloatPlane>,
+    reach: Reach,
+    pub counters: Counters,
+}
+
+/// Largest error of a rounded coordinate: half an ulp of 2^40.
+pub(super) const ROUNDING: f64 = 1.0 / 8192.0;
+
+impl Geometry {
+    pub(crate) fn new(points: Vec<[i64; 3]>) -> Self {
+        Self::canonical(points, CanonicalPoints::default())
+    }
+
+    /// Points that may be rational, and planes that facets will share.
+    pub(crate) fn canonical(points: Vec<[i64; 3]>, canonical: CanonicalPoints) -> Self {
+        Self {
+            points,
+            positions: canonical.rational.iter().map(HPointOf::rounded).collect(),
+            reach: if canonical.rational.is_empty() { Reach::Grid } else { Reach::Canonical },
+            first_on_plane: vec![u32::MAX; canonical.planes.len()],
+            canonical,
+            ..Self::default()
+        }
+    }
+
+    pub(crate) fn n_points(&self) -> usize {
+        self.points.len()
+    }
+
+    pub(crate) fn reach(&self) -> Reach {
+        self.reach
+    }
+
+    fn rational_entry(&self, p: u32) -> Option<usize> {
+        match self.canonical.entry.get(p as usize) {
+            None | Some(0) => None,
+            Some(&entry) => Some(entry as usize - 1),
+        }
+    }
+
+    pub(super) fn rational(&self, p: u32) -> Option<&RationalPoint> {
+        self.rational_entry(p).map(|entry| &self.canonical.rational[entry])
+    }
+
+    /// The point's integer coordinates, when it has such.
+    pub(crate) fn grid_point(&self, p: u32) -> Option<[i64; 3]> {
+        self.rational_entry(p).is_none().then(|| self.points[p as usize])
+    }
+
+    /// The grid point nearest to a point: itself, unless it is rational.
+    pub(crate) fn nearest_grid_point(&self, p: u32) -> [i64; 3] {
+        self.points[p as usize]
+    }
+
+    /// The point's position, correctly rounded.
+    pub(crate) fn position(&self, p: u32) -> [f64; 3] {
+        match self.rational_entry(p) {
+            None => self.points[p as usize].map(|x| x as f64),
+            Some(entry) => self.positions[entry],
+        }
+    }
+
+    /// Whether the corners of a triangle lie on one line.
+    pub(crate) fn are_collinear(&self, corners: [u32; 3]) -> bool {
+        match corners.map(|p| self.grid_point(p)) {
+            [Some(a), Some(b), Some(c)] => Plane::through(a, b, c).n == [0; 3],
+            _ => self.plane_through(corners).n.iter().all(|n| n.sign() == Sign::Zero),
+        }
+    }
+
+    fn plane_through(&self, corners: [u32; 3]) -> SharedPlane {
+        let [a, b, c] = corners.map(|p| self.wide_point(p));
+        PlaneOf::through(&a, &b, &c)
+    }
+
+    /// Adds a facet by three of its vertices that are not collinear and turn counter-clockwise about its normal.
+    pub(crate) fn push_facet(&mut self, base: [u32; 3]) {
+        if self.reach == Reach::Grid || base.iter().all(|&p| self.rational_entry(p).is_none()) {
+            let [a, b, c] = base.map(|p| self.points[p as usize]);
+            self.push_facet_with(base, Plane::through(a, b, c).n.map(|n| n as f64), 0);
+            return;
+        }
+        self.reach = Reach::Mixed;
+        let plane = self.plane_through(base);
+        self.first_on_plane.push(u32::MAX);
+        self.canonical.planes.push(plane);
+        let code = 2 * self.canonical.planes.len() as u32 - 1;
+        self.push_facet_with(base, rounded_normal(&plane), code);
+    }
+
+    /// Adds a facet on a shared plane by three of its vertices that are not collinear; `flipped` when these turn
+    /// clockwise about the plane's normal.
+    pub(crate) fn push_facet_on(&mut self, base: [u32; 3], plane: u32, flipped: bool) {
+        let normal = rounded_normal(&self.canonical.planes[plane as usize]);
+        let oriented = if flipped { normal.map(|n| -n) } else { normal };
+        self.push_facet_with(base, oriented, 1 + 2 * plane + u32::from(flipped));
+    }
+
+    fn push_facet_with(&mut self, base: [u32; 3], normal: [f64; 3], code: u32) {
+        let facet = self.bases.len();
+        if code != 0 || !self.plane_codes.is_empty() {
+            self.plane_codes.resize(facet, 0);
+            self.plane_codes.push(code);
+        }
+        if let Some(plane) = code.checked_sub(1) {
+            let first = &mut self.first_on_plane[plane as usize / 2];
+            *first = (*first).min(facet as u32);
+        }
+        // A rounded origin and a rounded position are off by 2^-13 each, their difference by 2^-12 more.
+        let weight = if self.reach == Reach::Grid { 0.0 } else { normal.iter().map(|n| n.abs()).sum() };
+        self.bases.push(base);
+        let origin = self.position(base[0]);
+        self.planes.push(FloatPlane { normal, origin, slack: weight * 4.0 * ROUNDING });
+    }
+
+    pub(super) fn float(&self, facet: u32) -> &FloatPlane {
+        &self.planes[facet as usize]
+    }
+
+    /// The shared plane of a facet, and whether the facet looks the other way.
+    pub(super) fn shared_plane(&self, facet: u32) -> Option<(u32, bool)> {
+        let code = self.plane_codes.get(facet as usize)?.checked_sub(1)?;
+        Some((code / 2, code % 2 == 1))
+    }
+
+    pub(super) fn shared(&self, plane: u32) -> &SharedPlane {
+        &self.canonical.planes[plane as usize]
+    }
+
+    /// Whether a point lies on a shared plane by definition.
+    pub(crate) fn is_defined_on(&self, p: u32, plane: u32) -> bool {
+        (p as usize) < self.canonical.planes_of_point.len()
+            && self.canonical.planes_of_point[p as usize].contains(&plane)
+    }
+
+    /// Whether a point lies on the facet's plane by definition: as one of the corners that define it, or because it
+    /// was put there.
+    pub(crate) fn lies_on(&self, p: u32, facet: u32) -> bool {
+        self.bases[facet as usize].contains(&p)
+            || self.shared_plane(facet).is_some_and(|(plane, _)| self.is_defined_on(p, plane))
+    }
+
+    /// The component of a shared plane's normal that is largest, and whether it is positive.
+    pub(crate) fn dominant_axis_of_plane(&self, plane: u32) -> (usize, bool) {
+        let n = &self.canonical.planes[plane as usize].n;
+        let axis = (1..3).fold(0, |best, k| if n[k].bits() > n[best].bits() { k } else { best });
+        (axis, n[axis].sign() == Sign::Positive)
+    }
+
+    /// The three corners that define the facet's plane.
+    pub(crate) fn base(&self, facet: u32) -> [u32; 3] {
+        self.bases[facet as usize]
+    }
+
+    /// The facet's normal, rounded, up to a positive factor.
+    pub(crate) fn normal(&self, facet: u32) -> [f64; 3] {
+        self.planes[facet as usize].normal
+    }
+
+    /// The axis along which the facet's normal is longest, and whether it points up that axis. The component is
+    /// not zero: the largest of three integers, not all zero, does not round to zero.
+    pub(crate) fn dominant_axis(&self, facet: u32) -> (usize, bool) {
+        let n = self.normal(facet);
+        let axis = (1..3).fold(0, |best, k| if n[k].abs() > n[best].abs() { k } else { best });
+        (axis, n[axis] > 0.0)
+    }
+
+    pub(crate) fn point_vertex(&self, p: u32) -> Vertex {
+        Vertex { at: self.position(p), def: VertexDef::Point(p) }
+    }
+
+    /// The vertex where an edge meets a plane. Its ends must lie strictly on either side.
+    pub(crate) fn edge_vertex(&self, ends: [u32; 2], support: Support) -> Vertex {
+        let support = match support {
+            Support::Facet(f) => Support::Facet(self.first_in_plane(f)),
+            vertical => vertical,
+        };
+        let def = VertexDef::EdgePlane { ends, support };
+        Vertex { at: self.rounded(&def), def }
+    }
+
+    /// The vertex on three facet planes that are known to meet in one point.
+    pub(crate) fn facets_vertex(&self, facets: [u32; 3]) -> Vertex {
+        let mut facets = facets.map(|f| self.first_in_plane(f));
+        facets.sort_unstable();
+        let def = VertexDef::Facets(facets);
+        Vertex { at: self.rounded(&def), def }
+    }
+
+    /// The position of a vertex after a move by whole steps, correctly rounded.
+    pub(crate) fn rounded_after(&self, v: &Vertex, offset: [i128; 3]) -> [f64; 3] {
+        self.moved_and_rounded(&v.def, offset)
+    }
+
+    /// The first facet on the shared plane of a facet; itself, when it shares none.
+    fn first_in_plane(&self, facet: u32) -> u32 {
+        self.shared_plane(facet).map_or(facet, |(plane, _)| self.first_on_plane[plane as usize])
+    }
+}
+
+/// The normal in `f64`, its largest component brought below 2^128, so that products of several stay finite.
+fn rounded_normal(plane: &SharedPlane) -> [f64; 3] {
+    let bits = plane.n.iter().map(Int::bits).max().unwrap_or(0) as i32;
+    plane.n.map(|n| n.to_f64_scaled(-i32::max(bits - 128, 0)))
+}
