@@ -29,7 +29,15 @@ pub(crate) struct Tolerance {
     pub error: f64,
 }
 
+/// Coordinates that are off by more than this many grid steps, 2^-16 of the model's extent, are taken as they are:
+/// what was meant to be equal can not be told from what was meant to be small.
+const LARGEST_ERROR: f64 = (1 << 24) as f64;
+
 impl Tolerance {
+    /// For coordinates that are off by up to so many grid steps.
+    pub(crate) fn new(error: f64) -> Self {
+        Self { error: if error > LARGEST_ERROR { 0.5 } else { error } }
+    }
     /// Two points that were one differ by two errors in a coordinate.
     fn points(self) -> f64 {
         3.0 * self.error
@@ -167,21 +175,24 @@ impl Canonicaliser<'_> {
     fn on_planes(&self, report: &mut Report) -> Option<Placed> {
         let items = Items::new(self.soup);
         let mut clusters = self.clusters(&items);
-        if clusters.iter().all(|c| c.is_exact) {
+        self.add_touching_corners(&items, &mut clusters);
+        self.choose_planes(&mut clusters);
+        clusters = registered(clusters, self.geometry().n_points());
+        if clusters.is_empty() {
             return None;
         }
-        clusters = registered(clusters, self.geometry().n_points());
         let planes: Vec<SharedPlane> = clusters.iter().map(|c| c.plane.widened()).collect();
         report.planes = planes.len() as u64;
         let mut of_point = vec![Vec::new(); self.geometry().n_points()];
         for (cluster, id) in clusters.iter().zip(0..) {
-            cluster.corners.iter().for_each(|&p| of_point[p as usize].push(id));
+            cluster.corners.iter().for_each(|&p| of_point[p as usize].push((id, true)));
+            cluster.touching.iter().for_each(|&p| of_point[p as usize].push((id, false)));
         }
         let mut placement = Placement::default();
         for (p, candidates) in (0..).zip(&mut of_point) {
-            candidates.sort_by_key(|&c: &u32| {
+            candidates.sort_by_key(|&(c, is_own): &(u32, bool)| {
                 let cluster = &clusters[c as usize];
-                (!cluster.is_settled, std::cmp::Reverse(cluster.corners.len()), c)
+                (!cluster.is_settled, !is_own, std::cmp::Reverse(cluster.corners.len()), c)
             });
             let at = self.geometry().nearest_grid_point(p);
             let (point, on) = placed(at, candidates, &clusters);
@@ -189,6 +200,47 @@ impl Canonicaliser<'_> {
             placement.push(point, on);
         }
         Some(placement.finished(self.soup, planes, self.planes_of_faces(&items, &clusters)))
+    }
+
+    /// Gives each cluster its plane, through the corner where it meets most others: planes that were meant to share a
+    /// line or a point in this way mostly do.
+    fn choose_planes(&self, clusters: &mut [Cluster]) {
+        let mut n_at = vec![0u32; self.geometry().n_points()];
+        clusters.iter().flat_map(Cluster::all_corners).for_each(|p| n_at[p as usize] += 1);
+        for cluster in clusters {
+            let key = cluster.all_corners().max_by_key(|&p| (n_at[p as usize], std::cmp::Reverse(p)));
+            let Some(key) = key else { continue };
+            cluster.plane = cluster.fit.canonical(self.geometry(), &cluster.corners, cluster.tolerance, key);
+            let is_on_plane = |p: &u32| cluster.plane.side(self.geometry().nearest_grid_point(*p)) == 0;
+            cluster.is_settled = cluster.corners.iter().all(is_on_plane);
+            cluster.moves_others = cluster.is_settled && !cluster.touching.iter().all(is_on_plane);
+        }
+    }
+
+    /// Gives the clusters the corners of other facets that lie on them or nearly so: a corner that rests on a face.
+    fn add_touching_corners(&self, items: &Items, clusters: &mut [Cluster]) {
+        let mut cluster_of = vec![None; items.len()];
+        for (cluster, id) in clusters.iter().zip(0u32..) {
+            cluster.items.iter().for_each(|&item| cluster_of[item as usize] = Some(id));
+        }
+        let of_facet = |f: u32| items.of_facet(f).and_then(|item| cluster_of[item as usize]);
+        let mut touching = Vec::new();
+        for (f, g) in self.pairs.iter().flat_map(|&[f, g]| [(f, g), (g, f)]) {
+            let (Some(id), other) = (of_facet(f), of_facet(g)) else { continue };
+            if other != Some(id) {
+                let cluster = &clusters[id as usize];
+                let near = |&p: &u32| cluster.fit.distance(self.geometry(), p) <= cluster.tolerance;
+                touching.extend(self.corners(g).filter(near).map(|p| (id, p)));
+            }
+        }
+        touching.sort_unstable();
+        touching.dedup();
+        for (id, p) in touching {
+            let cluster = &mut clusters[id as usize];
+            if cluster.corners.binary_search(&p).is_err() {
+                cluster.touching.push(p);
+            }
+        }
     }
 
     /// The plane of each face of each surface.
@@ -288,10 +340,17 @@ impl Canonicaliser<'_> {
         if fit.deviation > 2.0 * tolerance {
             return Err(members);
         }
-        let plane = fit.canonical(self.geometry(), &corners, tolerance);
-        let is_exact = fit.deviation == 0.0;
-        let is_settled = spread(self.geometry(), &corners, &plane) == 0;
-        Ok(Some(Cluster { items: members, corners, plane, tolerance, is_exact, is_settled }))
+        let cluster = Cluster {
+            items: members,
+            corners,
+            touching: Vec::new(),
+            fit,
+            tolerance,
+            plane: fit.plane,
+            is_settled: false,
+            moves_others: false,
+        };
+        Ok(Some(cluster))
     }
 
     fn is_triangle(&self, items: &Items, item: u32) -> bool {
@@ -496,9 +555,9 @@ impl Fit {
         (self.plane.side(geometry.nearest_grid_point(p)) as f64 / self.length).abs()
     }
 
-    /// A plane with small coefficients near the points: the same one where it has such, an axis-parallel one where
-    /// the tolerance allows, else the nearest with 2^40 for its largest component.
-    fn canonical(&self, geometry: &Geometry, corners: &[u32], tolerance: f64) -> Plane {
+    /// A plane with small coefficients near the points: the same one where it has such; else the nearest with 2^40 for
+    /// its largest component, the others zero where the tolerance allows; through `key`, where that lies near enough.
+    fn canonical(&self, geometry: &Geometry, corners: &[u32], tolerance: f64, key: u32) -> Plane {
         let n = self.plane.n;
         let axis = (1..3).fold(0, |best, k| if n[k].abs() > n[best].abs() { k } else { best });
         if self.deviation == 0.0 {
@@ -507,11 +566,22 @@ impl Fit {
                 return Plane { n: n.map(|x| x / divisor), d: self.plane.d / divisor };
             }
         }
-        let parallel = centred(geometry, corners, std::array::from_fn(|k| i128::from(k == axis)));
-        if spread(geometry, corners, &parallel) as f64 <= tolerance {
-            return parallel;
-        }
-        centred(geometry, corners, n.map(|x| rounded_division(x * COEFFICIENT, n[axis])))
+        let small = n.map(|x| rounded_division(x * COEFFICIENT, n[axis]));
+        let minor =
+            if small[(axis + 1) % 3].abs() < small[(axis + 2) % 3].abs() { axis + 1 } else { axis + 2 } % 3;
+        let along_axis = std::array::from_fn(|k| i128::from(k == axis));
+        let without_minor = std::array::from_fn(|k| if k == minor { 0 } else { small[k] });
+        let near = |n: [i128; 3], within: f64| {
+            let length = n.iter().map(|&x| (x as f64).powi(2)).sum::<f64>().sqrt();
+            let through_key = Plane { n, d: Plane { n, d: 0 }.side(geometry.nearest_grid_point(key)) };
+            [through_key, centred(geometry, corners, n)]
+                .into_iter()
+                .find(|plane| spread(geometry, corners, plane) as f64 <= within * length)
+        };
+        near(along_axis, tolerance)
+            .or_else(|| near(without_minor, tolerance))
+            .or_else(|| near(small, 2.0 * tolerance))
+            .unwrap_or_else(|| centred(geometry, corners, small))
     }
 }
 
@@ -546,25 +616,37 @@ struct Cluster {
     items: Vec<u32>,
     /// Their corners, ascending.
     corners: Vec<u32>,
-    plane: Plane,
+    /// Corners of others that lie on it or nearly so.
+    touching: Vec<u32>,
+    fit: Fit,
     tolerance: f64,
-    /// Whether the corners lie in one plane already.
-    is_exact: bool,
-    /// Whether they lie on the cluster's plane already.
+    /// That of the fit, later the canonical one.
+    plane: Plane,
+    /// Whether the corners lie on the canonical plane already.
     is_settled: bool,
+    /// Whether it is settled but corners that touch it are not on its plane.
+    moves_others: bool,
 }
 
-/// The clusters that matter: those that are not exactly planar, and those that share corners with them, directly or
-/// through others. A settled one keeps its plane, so nothing goes on through it.
+impl Cluster {
+    /// Its corners and those that touch it.
+    fn all_corners(&self) -> impl Iterator<Item = u32> + '_ {
+        self.corners.iter().chain(&self.touching).copied()
+    }
+}
+
+/// The clusters that matter: those that move corners, and those that share corners with them, directly or through
+/// others. A settled one keeps its plane, so nothing goes on through it.
 fn registered(clusters: Vec<Cluster>, n_points: usize) -> Vec<Cluster> {
     let mut of_point = vec![Vec::new(); n_points];
     for (cluster, id) in clusters.iter().zip(0usize..) {
-        cluster.corners.iter().for_each(|&p| of_point[p as usize].push(id));
+        cluster.all_corners().for_each(|p| of_point[p as usize].push(id));
     }
-    let mut is_registered: Vec<bool> = clusters.iter().map(|c| !c.is_exact).collect();
+    let mut is_registered: Vec<bool> =
+        clusters.iter().map(|c| c.fit.deviation > 0.0 || c.moves_others).collect();
     let mut stack: Vec<usize> = (0..clusters.len()).filter(|&c| is_registered[c]).collect();
     while let Some(id) = stack.pop() {
-        for &p in &clusters[id].corners {
+        for p in clusters[id].all_corners() {
             for other in std::mem::take(&mut of_point[p as usize]) {
                 if !std::mem::replace(&mut is_registered[other], true) && !clusters[other].is_settled {
                     stack.push(other);
@@ -576,26 +658,22 @@ fn registered(clusters: Vec<Cluster>, n_points: usize) -> Vec<Cluster> {
 }
 
 /// Where a point goes, and the planes it then lies on: greedily as many of the candidates as do not take it far.
-fn placed(at: [i64; 3], candidates: &[u32], clusters: &[Cluster]) -> (RationalPoint, Vec<u32>) {
+fn placed(at: [i64; 3], candidates: &[(u32, bool)], clusters: &[Cluster]) -> (RationalPoint, Vec<u32>) {
     let home = at.map(|x| x as f64);
-    let (mut point, mut basis, mut on) = (RationalPoint::grid(at), Vec::new(), Vec::new());
-    for &candidate in candidates {
+    let (mut point, mut basis) = (RationalPoint::grid(at), Vec::new());
+    for &(candidate, _) in candidates {
         let cluster = &clusters[candidate as usize];
         basis.push(&cluster.plane);
         match nearest_on(at, &basis) {
-            Some(moved) if distance(home, moved.rounded()) <= 2.0 * cluster.tolerance => {
-                point = moved;
-                on.push(candidate);
-            }
-            _ => {
-                basis.pop();
-                // A plane through the point that depends on those before holds what they hold.
-                if cluster.plane.widened::<4>().scaled_side(&point.widened()).sign() == Sign::Zero {
-                    on.push(candidate);
-                }
-            }
+            Some(moved) if distance(home, moved.rounded()) <= 2.0 * cluster.tolerance => point = moved,
+            _ => drop(basis.pop()),
         }
     }
+    let is_on = |candidate: &u32| {
+        let plane = &clusters[*candidate as usize].plane;
+        plane.widened::<4>().scaled_side(&point.widened()).sign() == Sign::Zero
+    };
+    let on = candidates.iter().map(|c| c.0).filter(is_on).collect();
     (point, on)
 }
 

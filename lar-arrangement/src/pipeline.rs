@@ -228,7 +228,7 @@ impl Arranger {
                 surface.precision.rounding_error(size)
             }
         };
-        Tolerance { error: (grid.coarseness() / 2.0).max(source / grid.step()) }
+        Tolerance::new((grid.coarseness() / 2.0).max(source / grid.step()))
     }
 
     fn check(&self, test: impl FnOnce() -> Result<(), check::Failure>) -> Result<(), ArrangementError> {

@@ -181,18 +181,17 @@ fn rows_in_general_position_rotated() {
     }
 }
 
-/// The rows with coplanar faces that hold under all five rotations. Rounding to the grid moves faces that were
-/// coplanar apart by fractions of a step; until planes are canonicalised some of these rows get sliver cells. The
-/// list may only grow.
+/// The rows with coplanar faces hold as well. In the two that are left out edges of different solids lie on one line,
+/// and more than three planes through a line cannot all be rounded to small coefficients.
 #[test]
-fn rows_with_coplanar_faces_that_hold_rotated() {
-    let holds = |row: &&Row| rotations().iter().all(|by| counts_rotated(row, by) == Some(row.counts));
-    let rows = rows();
-    let found: Vec<&str> = rows.iter().filter(|row| !row.skew).filter(holds).map(|row| row.name).collect();
-    assert_eq!(found, COPLANAR_ROWS_THAT_HOLD);
+fn rows_with_coplanar_faces_rotated() {
+    let on_lines = ["one turned", "prisms"];
+    for row in rows().iter().filter(|row| !row.skew && !on_lines.contains(&row.name)) {
+        for (i, by) in rotations().iter().enumerate() {
+            assert_eq!(counts_rotated(row, by), Some(row.counts), "{}, rotation {i}", row.name);
+        }
+    }
 }
-
-const COPLANAR_ROWS_THAT_HOLD: [&str; 3] = ["sharing a face", "grid of 8", "grid of 27"];
 
 fn histogram(values: impl IntoIterator<Item = usize>) -> Vec<(usize, usize)> {
     let mut out: BTreeMap<usize, usize> = BTreeMap::new();

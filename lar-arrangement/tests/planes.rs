@@ -1,0 +1,77 @@
+//! Facets that were meant to be coplanar, after rotations, rounding and files: the counts of the unmoved scene.
+
+mod common;
+
+use common::{Random, all_counts, arranged, counts, moved, surfaces};
+use lar_arrangement::{Arranger, Checks, Planes};
+use lar_core::{Affine, Model, Precision, Struct, Surface, cuboid_grid, r, rotation, t};
+
+fn cube() -> Model {
+    cuboid_grid(&[1, 1, 1])
+}
+
+fn beside(by: [f64; 3]) -> Struct {
+    Struct::new("pair").with(cube()).with(t(&by)).with(cube())
+}
+
+/// n³ unit cubes side by side, each a solid of its own.
+fn blocks(n: usize) -> Struct {
+    (0..n * n * n).fold(Struct::new("blocks"), |scene, i| {
+        let at = [i % n, i / n % n, i / n / n].map(|x| x as f64);
+        scene.with(Struct::new("block").with(t(&at)).with(cube()))
+    })
+}
+
+/// Two such blocks of n³, the second moved, or turned about z, or both.
+fn two_blocks(n: usize, by: [f64; 3], angle: f64) -> Struct {
+    Struct::new("two blocks").with(blocks(n)).with(t(&by)).with(r([0.0, 0.0, angle])).with(blocks(n))
+}
+
+/// Scenes with coplanar faces and their counts of vertices, edges, faces and cells.
+fn rows() -> Vec<(&'static str, Struct, [usize; 4])> {
+    vec![
+        ("sharing a face", beside([1.0, 0.0, 0.0]), [12, 20, 11, 3]),
+        ("sharing half a face", beside([1.0, 0.5, 0.0]), [16, 26, 13, 3]),
+        ("overlapping", beside([0.5, 0.0, 0.0]), [16, 28, 16, 4]),
+        ("sharing an edge", beside([1.0, 1.0, 0.0]), [14, 23, 12, 3]),
+        ("sharing a vertex", beside([1.0, 1.0, 1.0]), [15, 24, 12, 3]),
+        ("grid of 8", Struct::new("grid").with(cuboid_grid(&[2, 2, 2])), [27, 54, 36, 9]),
+        ("grid of 27", Struct::new("grid").with(cuboid_grid(&[3, 3, 3])), [64, 144, 108, 28]),
+        ("27 blocks", blocks(3), [64, 144, 108, 28]),
+        ("blocks on blocks", two_blocks(2, [0.5, 0.5, 2.0], 0.0), [62, 124, 79, 17]),
+    ]
+}
+
+fn random_rotation(random: &mut Random) -> Affine {
+    let axis = [0; 3].map(|_| random.between(-1.0, 1.0));
+    rotation(axis, random.between(0.1, 6.0)).expect("the axis is not zero")
+}
+
+#[track_caller]
+fn check(name: &str, input: &[Surface], expected: [usize; 4]) {
+    let a =
+        Arranger::new().checks(Checks::EveryStage).arrange(input).unwrap_or_else(|e| panic!("{name}: {e}"));
+    assert_eq!(counts(&a), expected, "{name}");
+}
+
+#[test]
+fn unmoved() {
+    for (name, scene, expected) in rows() {
+        let a = arranged(&surfaces(&scene));
+        assert_eq!(counts(&a), expected, "{name}");
+        assert_eq!(a.stats().moved_points, 0, "{name}: an exact scene stays as it is");
+    }
+}
+
+#[test]
+fn hundred_rotations() {
+    let random = &mut Random(7);
+    for (name, scene, expected) in rows() {
+        let input = surfaces(&scene);
+        for i in 0..100 {
+            let by = [0; 3].map(|_| random.between(-50.0, 50.0));
+            let input = moved(&moved(&input, &random_rotation(random)), &t(&by));
+            check(&format!("{name}, rotation {i}"), &input, expected);
+        }
+    }
+}
