@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Random, all_counts, arranged, counts, moved, surfaces};
+use common::{Random, arranged, counts, moved, sorted_volumes, surfaces};
 use lar_arrangement::{Arranger, Checks, Planes};
 use lar_core::{Affine, Model, Precision, Struct, Surface, cuboid_grid, r, rotation, t};
 
@@ -73,5 +73,74 @@ fn hundred_rotations() {
             let input = moved(&moved(&input, &random_rotation(random)), &t(&by));
             check(&format!("{name}, rotation {i}"), &input, expected);
         }
+    }
+}
+
+/// Rounding adds up over a product of a thousand rotations by small angles.
+#[test]
+fn many_small_rotations() {
+    let random = &mut Random(8);
+    for (name, scene, expected) in rows() {
+        for i in 0..3 {
+            let axis = [0; 3].map(|_| random.between(-1.0, 1.0));
+            let step = rotation(axis, 0.001).expect("the axis is not zero");
+            let input = (0..1000).fold(surfaces(&scene), |input, _| moved(&input, &step));
+            check(&format!("{name}, {i}"), &input, expected);
+        }
+    }
+}
+
+/// Coordinates rounded as a file does, with the precision that its reader reports.
+fn rounded(input: &[Surface], precision: Precision, round: impl Fn(f64) -> f64) -> Vec<Surface> {
+    let with_precision = |s: &Surface| {
+        let mut rounded = common::mapped(s, |p| p.map(&round));
+        rounded.precision = precision;
+        rounded
+    };
+    input.iter().map(with_precision).collect()
+}
+
+#[test]
+fn six_digits_and_32_bits() {
+    let random = &mut Random(9);
+    let six = Precision::Decimal { significant: 6, last_place: -9 };
+    for (name, scene, expected) in rows() {
+        for i in 0..20 {
+            let input = moved(&surfaces(&scene), &random_rotation(random));
+            let printed = rounded(&input, six, |x| format!("{x:.5e}").parse().expect("a number"));
+            check(&format!("{name}, six digits, {i}"), &printed, expected);
+            let single = rounded(&input, Precision::F32, |x| f64::from(x as f32));
+            check(&format!("{name}, 32 bits, {i}"), &single, expected);
+        }
+    }
+}
+
+/// Faces apart by more than the tolerance stay apart; the option closes the gap, or keeps every other.
+#[test]
+fn the_tolerance_decides() {
+    let turn = rotation([1.0, 2.0, 3.0], 0.7).expect("the axis is not zero");
+    let input = moved(&surfaces(&beside([1.0 + 1e-6, 0.0, 0.0])), &turn);
+    let cells = |planes| {
+        let a = Arranger::new().planes(planes).arrange(&input).expect("a valid scene");
+        (a.n_cells(), a.n_faces(), a.stats().farthest_move)
+    };
+    let (n_cells, n_faces, farthest) = cells(Planes::Canonical);
+    assert_eq!((n_cells, n_faces), (3, 12));
+    assert!(farthest < 1e-11, "moved by {farthest}");
+    let (n_cells, n_faces, farthest) = cells(Planes::Within(1e-6));
+    assert_eq!((n_cells, n_faces), (3, 11));
+    assert!((1e-7..1e-5).contains(&farthest), "moved by {farthest}");
+    assert_eq!(cells(Planes::AsGiven), (3, 12, 0.0));
+}
+
+/// The volumes of a canonical scene are those of the scene as it was meant.
+#[test]
+fn volumes_survive() {
+    let random = &mut Random(10);
+    for (name, scene, _) in rows() {
+        let input = surfaces(&scene);
+        let expected = sorted_volumes(&arranged(&input));
+        let turned = arranged(&moved(&input, &random_rotation(random)));
+        common::assert_close(&sorted_volumes(&turned), &expected, 1e-10, name);
     }
 }

@@ -3,8 +3,8 @@
 
 mod common;
 
-use common::{all_counts, arrange_checked, exact_motions, flipped, shuffled, surface};
-use lar_arrangement::{Arrangement, Arranger};
+use common::{all_counts, exact_motions, flipped, shuffled, surface};
+use lar_arrangement::{Arrangement, Arranger, Checks, Planes};
 use lar_core::Surface;
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
@@ -70,8 +70,9 @@ fn surface_at(faces: &[Vec<[f64; 3]>]) -> Surface {
     surface(&points, &ids.iter().map(Vec::as_slice).collect::<Vec<_>>())
 }
 
-fn arranged(surfaces: &[Surface]) -> Result<Arrangement, TestCaseError> {
-    arrange_checked(surfaces).map_err(|e| TestCaseError::fail(e.to_string()))
+fn arranged(surfaces: &[Surface], planes: Planes) -> Result<Arrangement, TestCaseError> {
+    let arranger = Arranger::new().checks(Checks::EveryStage).planes(planes);
+    arranger.arrange(surfaces).map_err(|e| TestCaseError::fail(e.to_string()))
 }
 
 fn json(surfaces: &[Surface], threads: usize) -> Result<String, TestCaseError> {
@@ -82,15 +83,15 @@ fn json(surfaces: &[Surface], threads: usize) -> Result<String, TestCaseError> {
 }
 
 /// The laws that hold for every soup. Returns its arrangement.
-fn check_laws(surface: &Surface, seed: u64) -> Result<Arrangement, TestCaseError> {
+fn check_laws(surface: &Surface, seed: u64, planes: Planes) -> Result<Arrangement, TestCaseError> {
     let one = std::slice::from_ref(surface);
-    let a = arranged(one)?;
+    let a = arranged(one, planes)?;
     prop_assert_eq!(json(one, 1)?, json(one, 3)?);
     let total: f64 = a.volumes().iter().sum();
     prop_assert!(total.abs() < 1e-9, "volumes add up to {}", total);
     let random = &mut common::Random(seed);
     for variant in [flipped(surface), shuffled(surface, random)] {
-        let other = arranged(&[variant])?;
+        let other = arranged(&[variant], planes)?;
         prop_assert_eq!(all_counts(&other), all_counts(&a));
     }
     Ok(a)
@@ -102,26 +103,28 @@ proptest! {
     /// The diagonal of a skew quadrilateral depends on the axis of its projection, so axes stay.
     #[test]
     fn skew_faces(faces in soup(prop_oneof![triangle(), skew()]), seed: u64) {
-        check_laws(&surface_of(&faces), seed)?;
+        check_laws(&surface_of(&faces), seed, Planes::Canonical)?;
     }
 
     #[test]
     fn planar_faces(faces in soup(prop_oneof![triangle(), planar()]), seed: u64) {
         let surface = surface_of(&faces);
-        let a = check_laws(&surface, seed)?;
+        let a = check_laws(&surface, seed, Planes::Canonical)?;
         for (name, variant) in exact_motions(&[surface]) {
-            let other = arranged(&variant)?;
+            let other = arranged(&variant, Planes::Canonical)?;
             prop_assert_eq!(all_counts(&other), all_counts(&a), "{}", name);
         }
     }
 
-    /// Corners a step beside edges and planes: every filter must give way to the exact answer.
+    /// Corners a step beside edges and planes: every filter must give way to the exact answer. With canonical planes
+    /// most of them are on these edges and planes; which, may hang on the numbering, the laws do not.
     #[test]
     fn nearly_degenerate_faces(faces in prop::collection::vec(nearly_degenerate(), 2..=12), seed: u64) {
         let surface = surface_at(&faces);
-        let a = check_laws(&surface, seed)?;
+        let a = check_laws(&surface, seed, Planes::AsGiven)?;
         for (name, variant) in exact_motions(&[surface]) {
-            prop_assert_eq!(all_counts(&arranged(&variant)?), all_counts(&a), "{}", name);
+            prop_assert_eq!(all_counts(&arranged(&variant, Planes::AsGiven)?), all_counts(&a), "{}", name);
+            arranged(&variant, Planes::Canonical)?;
         }
     }
 
@@ -134,9 +137,10 @@ proptest! {
             .map(|(i, f)| f.iter().map(|&[x, y, _]| if i % 3 == 0 { [x, 1, y] } else { [x, y, 2] }).collect())
             .collect();
         let surface = surface_of(&flat);
-        let a = check_laws(&surface, seed)?;
+        let a = check_laws(&surface, seed, Planes::Canonical)?;
         for (name, variant) in exact_motions(&[surface]) {
-            prop_assert_eq!(all_counts(&arranged(&variant)?), all_counts(&a), "{}", name);
+            let other = arranged(&variant, Planes::Canonical)?;
+            prop_assert_eq!(all_counts(&other), all_counts(&a), "{}", name);
         }
     }
 }
