@@ -2,7 +2,7 @@
 
 use crate::arrangement::{Arrangement, SolidInfo};
 use crate::boxes::{Aabb, BoxTree};
-use crate::canonical::{Canonicaliser, Report, Stage, Tolerance};
+use crate::canonical::{self, Input, Report, Scan, Tolerance};
 use crate::check;
 use crate::coplanar;
 use crate::crossing::{self, Contacts, Scratch};
@@ -202,12 +202,17 @@ impl Arranger {
             return Ok((soup, pairs));
         }
         let mut report = Report::default();
-        for stage in [Stage::Points, Stage::Planes] {
-            let canonicaliser = Canonicaliser { soup: &soup, pairs: &pairs, tolerances: &tolerances };
-            if let Some(placed) = canonicaliser.placed(stage, &mut report) {
-                soup = Soup::new(surfaces, placed, &flatness);
-                pairs = BoxTree::new(&facet_boxes(&soup, reach)).pairs();
-            }
+        let input = Input { soup: &soup, pairs: &pairs, tolerances: &tolerances };
+        let mut scan = Scan::new(&input);
+        if let Some(placed) = canonical::merged_points(&input, &scan, &mut report) {
+            soup = Soup::new(surfaces, placed, &flatness);
+            pairs = BoxTree::new(&facet_boxes(&soup, reach)).pairs();
+            scan = Scan::new(&Input { soup: &soup, pairs: &pairs, tolerances: &tolerances });
+        }
+        let input = Input { soup: &soup, pairs: &pairs, tolerances: &tolerances };
+        if let Some(placed) = canonical::on_planes(&input, &scan, &mut report) {
+            soup = Soup::new(surfaces, placed, &flatness);
+            pairs = BoxTree::new(&facet_boxes(&soup, 0.0)).pairs();
         }
         stats.canonical_planes = report.planes;
         stats.moved_points = report.moved;

@@ -148,15 +148,15 @@ impl Soup {
         if self.polygon_flat[polygon as usize] { polygon } else { self.polygon_flat.len() as u32 + facet }
     }
 
-    /// Whether a facet is (a piece of) a polygon that is meant to be planar.
-    pub(crate) fn is_flat(&self, facet: u32) -> bool {
-        self.polygon_flat[self.facet_polygon[facet as usize] as usize]
-    }
-
     /// Parents of a facet.
     pub(crate) fn parents(&self, facet: u32) -> &[Parent] {
-        let polygon = self.facet_polygon[facet as usize] as usize;
-        &self.parents[self.parent_offsets[polygon] as usize..self.parent_offsets[polygon + 1] as usize]
+        self.polygon_parents(self.facet_polygon[facet as usize])
+    }
+
+    /// Parents of a polygon.
+    pub(crate) fn polygon_parents(&self, polygon: u32) -> &[Parent] {
+        let p = polygon as usize;
+        &self.parents[self.parent_offsets[p] as usize..self.parent_offsets[p + 1] as usize]
     }
 }
 

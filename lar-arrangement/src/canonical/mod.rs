@@ -1,0 +1,142 @@
+//! Stage 1c: facets that were meant to lie in one plane are put there.
+//!
+//! Coordinates are rounded, so two boxes stacked inside one rotated frame miss each other by a grid step, and the
+//! corners of a rotated square span two planes. Facets that meet and whose corners lie within the tolerance of one
+//! plane form a *cluster*. It gets one plane with coefficients of 41 bits, and its corners are put on it: along an
+//! axis when they belong to one cluster, on the line of two, on the point of three. Such corners are rational. A corner
+//! on more planes keeps those that it was put on; the facets that then do not pass through it are left with planes of
+//! their own.
+//!
+//! A scene whose clusters are exactly planar on the grid stays as it is.
+
+mod cluster;
+mod fit;
+mod placement;
+mod scan;
+mod vector;
+
+use crate::kernel::Geometry;
+use crate::soup::{Placed, Soup};
+pub(crate) use scan::Scan;
+use vector::distance;
+
+/// How far from each other, in grid steps, what was meant to be equal may lie in one surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Tolerance {
+    /// Error of a coordinate: half a step, or half a unit of the source's last digit.
+    pub error: f64,
+}
+
+/// Coordinates that are off by more than this many grid steps, 2^-16 of the model's extent, are taken as they are:
+/// what was meant to be equal can not be told from what was meant to be small.
+const LARGEST_ERROR: f64 = (1 << 24) as f64;
+
+impl Tolerance {
+    /// For coordinates that are off by up to so many grid steps.
+    pub(crate) fn new(error: f64) -> Self {
+        Self { error: if error > LARGEST_ERROR { 0.5 } else { error } }
+    }
+    /// Two points that were one differ by two errors in a coordinate.
+    fn points(self) -> f64 {
+        3.0 * self.error
+    }
+
+    /// A corner lies √3 errors from its plane at most, and so do the three corners that the plane is guessed from.
+    pub(crate) fn planes(self) -> f64 {
+        8.0 * self.error
+    }
+
+    /// Corners of one polygon that was meant to be planar lie so near to the plane of three of them.
+    pub(crate) fn flatness(self) -> f64 {
+        4.0 * self.planes()
+    }
+}
+
+/// What became of the input.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Report {
+    /// Planes that facets were put on.
+    pub planes: u64,
+    /// Points that moved.
+    pub moved: u64,
+    /// The farthest that a point moved, in grid steps.
+    pub farthest: f64,
+}
+
+impl Report {
+    fn note(&mut self, distance: f64) {
+        if distance > 0.0 {
+            self.moved += 1;
+            self.farthest = self.farthest.max(distance);
+        }
+    }
+}
+
+/// Facets of a soup, the pairs of them whose boxes meet, and what the surfaces are worth.
+pub(crate) struct Input<'a> {
+    pub soup: &'a Soup,
+    pub pairs: &'a [[u32; 2]],
+    /// For each surface.
+    pub tolerances: &'a [Tolerance],
+}
+
+impl Input<'_> {
+    fn tolerance(&self, facet: u32) -> Tolerance {
+        let of = |solid: u32| self.tolerances[solid as usize].error;
+        let error = self.soup.parents(facet).iter().map(|p| of(p.solid)).fold(0.0, f64::max);
+        Tolerance { error }
+    }
+
+    fn corners(&self, facet: u32) -> impl Iterator<Item = u32> + Clone + '_ {
+        self.soup.facet_edges[facet as usize].iter().map(|&e| self.soup.directed(e)[0])
+    }
+}
+
+/// The vertices with points that are nearly one made one; `None` when there are none.
+pub(crate) fn merged_points(input: &Input, scan: &Scan, report: &mut Report) -> Option<Placed> {
+    if scan.near.is_empty() {
+        return None;
+    }
+    let geometry = &input.soup.geometry;
+    // A point follows one that stays, never one that follows itself: nobody moves farther than the tolerance.
+    let mut follows: Vec<u32> = (0..geometry.n_points() as u32).collect();
+    for &[p, q] in &scan.near {
+        if follows[p as usize] == p && follows[q as usize] == q {
+            follows[q as usize] = p;
+            report.note(distance(geometry.position(p), geometry.position(q)));
+        }
+    }
+    let mut staying = Vec::new();
+    let mut new_id = vec![0; follows.len()];
+    for (&follows, p) in follows.iter().zip(0..) {
+        new_id[p as usize] = if follows == p {
+            staying.push(geometry.nearest_grid_point(p));
+            staying.len() as u32 - 1
+        } else {
+            new_id[follows as usize]
+        };
+    }
+    let point_ids = staying.iter().copied().zip(0..).collect();
+    Some(Placed {
+        grid: input.soup.grid,
+        geometry: Geometry::new(staying),
+        point_ids,
+        point_of: renumbered(&input.soup.point_of, &new_id),
+        plane_of_face: Vec::new(),
+    })
+}
+
+/// The vertices on canonical planes; `None` when all that should be coplanar is.
+pub(crate) fn on_planes(input: &Input, scan: &Scan, report: &mut Report) -> Option<Placed> {
+    let clusters = cluster::clusters(input, scan);
+    let clusters = placement::registered(clusters, input.soup.geometry.n_points());
+    if clusters.is_empty() {
+        return None;
+    }
+    let plane_of_face = cluster::planes_of_faces(input.soup, &clusters);
+    Some(placement::on_planes(input.soup, &clusters, plane_of_face, report))
+}
+
+fn renumbered(point_of: &[Vec<u32>], new_id: &[u32]) -> Vec<Vec<u32>> {
+    point_of.iter().map(|of| of.iter().map(|&p| new_id[p as usize]).collect()).collect()
+}
