@@ -21,7 +21,7 @@ use crate::stats::{Stats, Watch};
 use crate::union_find::UnionFind;
 use crate::winding::{Jumps, Windings};
 use crate::wrap;
-use lar_core::{Cells, ChainComplex, Points, Surface};
+use lar_core::{Cells, ChainComplex, Points, Precision, Surface};
 use std::num::NonZeroUsize;
 
 /// Pairs of facets a chunk of work.
@@ -51,6 +51,9 @@ pub enum Planes {
     /// They stay where the grid has them.
     AsGiven,
 }
+
+/// Numbers of fewer digits, like 0.5, are taken to be meant exactly.
+const SHORT: u32 = 5;
 
 /// Options for an arrangement.
 ///
@@ -230,7 +233,10 @@ impl Arranger {
                     .points
                     .bounds()
                     .map_or(0.0, |(lo, hi)| lo.iter().chain(&hi).fold(0.0, |size: f64, x| size.max(x.abs())));
-                surface.precision.rounding_error(size)
+                match surface.precision {
+                    Precision::Decimal { significant, .. } if significant < SHORT => 0.0,
+                    precision => precision.rounding_error(size),
+                }
             }
         };
         Tolerance::new((grid.coarseness() / 2.0).max(source / grid.step()))

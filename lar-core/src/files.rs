@@ -23,6 +23,7 @@ pub use error::{MeshFileError, Place, Problem};
 pub use format::{MeshFormat, SurfaceFile, parse_surface, read_surface, write_mesh};
 pub use gltf::{GltfNode, to_glb, to_gltf, write_gltf};
 pub use polygons::PolygonMesh;
+pub(crate) use precision::Digits;
 pub use precision::Precision;
 pub use seg::{parse_segments, read_segments};
 #[cfg(feature = "svg")]

@@ -43,7 +43,7 @@ fn round_trips_of_triangles() {
         assert_eq!(corners(&read.surface), corners(&Surface::from_triangles("a", &expected)), "{format:?}");
         assert_eq!((read.surface.points.len(), read.surface.boundary_edges().len()), (162, 0), "{format:?}");
         let text = matches!(format, MeshFormat::StlBinary);
-        assert_eq!(read.precision, if text { Precision::F32 } else { Precision::F64 }, "{format:?}");
+        assert_eq!(read.surface.precision, if text { Precision::F32 } else { Precision::F64 }, "{format:?}");
         let welded = Weld { corners: 960, vertices: 162, collapsed: 0 };
         let stl = matches!(format, MeshFormat::StlBinary | MeshFormat::StlText);
         assert_eq!(read.weld, stl.then_some(welded));
@@ -101,7 +101,7 @@ fn files_by_extension() {
 #[track_caller]
 fn check_fixture(name: &str, format: MeshFormat, vertices: usize, faces: usize, precision: Precision) {
     let read = read_surface(fixture(name)).unwrap();
-    assert_eq!((read.format, read.precision), (format, precision));
+    assert_eq!((read.format, read.surface.precision), (format, precision));
     assert_eq!((read.surface.points.len(), read.surface.n_faces()), (vertices, faces));
     assert_eq!(read.surface.boundary_edges(), []);
     assert_eq!(read.surface.validate(), []);

@@ -4,7 +4,6 @@ use super::error::MeshFileError;
 #[cfg(doc)]
 use super::error::Problem;
 use super::polygons::PolygonMesh;
-use super::precision::{Digits, Precision};
 use super::source::{MARK, Source};
 use super::weld::Weld;
 use super::{gltf, off, ply, polygons, stl};
@@ -74,8 +73,7 @@ pub struct SurfaceFile {
     pub surface: Surface,
     /// The format found.
     pub format: MeshFormat,
-    /// What the coordinates are worth.
-    pub precision: Precision,
+
     /// What welding did, for formats that repeat the coordinates of each corner (STL).
     pub weld: Option<Weld>,
 }
@@ -139,7 +137,7 @@ pub fn parse_surface(bytes: &[u8], file: impl AsRef<Path>) -> Result<SurfaceFile
         return read_as(format, &mut source);
     }
     let surface = only(parse_obj(&text(bytes, file)?, file, ObjGrouping::Whole)?);
-    Ok(SurfaceFile { surface, format, precision: obj_precision(bytes), weld: None })
+    Ok(SurfaceFile { surface, format, weld: None })
 }
 
 /// Writes a surface or triangle mesh in the format that the extension stands for, whole or not at all:
@@ -234,17 +232,4 @@ fn extension(path: &Path) -> String {
 
 fn only(surfaces: Vec<Surface>) -> Surface {
     surfaces.into_iter().next().expect("reading as a whole gives one surface")
-}
-
-/// The digits of the `v` statements of an OBJ text.
-fn obj_precision(text: &[u8]) -> Precision {
-    let mut digits = Digits::default();
-    for line in text.split(|&b| b == b'\n') {
-        let Ok(line) = str::from_utf8(line.strip_prefix(MARK).unwrap_or(line)) else { continue };
-        let mut words = line.split_ascii_whitespace();
-        if words.next() == Some("v") {
-            words.take(3).for_each(|word| digits.note(word));
-        }
-    }
-    digits.precision()
 }

@@ -43,8 +43,9 @@ pub(crate) fn read(source: &mut Source<'_>) -> Result<SurfaceFile, MeshFileError
     if polygons.is_empty() {
         return Err(source.at_line().error(Problem::NoFaces));
     }
-    let surface = Surface::from_polygons(source.stem(), points, polygons);
-    Ok(SurfaceFile { surface, format: MeshFormat::Off, precision: digits.precision(), weld: None })
+    let mut surface = Surface::from_polygons(source.stem(), points, polygons);
+    surface.precision = digits.precision();
+    Ok(SurfaceFile { surface, format: MeshFormat::Off, weld: None })
 }
 
 /// The header, whose counts may stand on its own line or the next.

@@ -7,7 +7,8 @@
 
 use super::ObjError;
 use crate::atomic_write::read;
-use crate::{Cells, Points, Surface};
+use crate::files::Digits;
+use crate::{Cells, Points, Precision, Surface};
 use rustc_hash::FxHashMap;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -71,10 +72,25 @@ pub fn parse_obj(
     }
     reader.check_faces()?;
     let name = file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    Ok(match grouping {
+    let mut surfaces = match grouping {
         ObjGrouping::Whole => vec![reader.whole(name)],
         ObjGrouping::Groups => reader.groups(&name),
-    })
+    };
+    let precision = precision(text);
+    surfaces.iter_mut().for_each(|surface| surface.precision = precision);
+    Ok(surfaces)
+}
+
+/// What the coordinates of the `v` statements are worth.
+fn precision(text: &str) -> Precision {
+    let mut digits = Digits::default();
+    for line in text.lines() {
+        let mut words = line.split_ascii_whitespace();
+        if words.next() == Some("v") {
+            words.take(3).for_each(|word| digits.note(word));
+        }
+    }
+    digits.precision()
 }
 
 /// The statements with their first lines: comments cut off, continued lines joined.

@@ -1,7 +1,7 @@
 //! `lar arrange`: the partition of space that the inputs generate.
 
 use super::input::{Inputs, Operands};
-use super::report::{Operand, Stages, Threads, counted, print_laws};
+use super::report::{Coplanarity, Moves, Operand, Stages, Threads, arrange, counted, print_laws};
 use crate::checks::{boundary_squared_zero, parents_ok};
 use crate::output::{Sink, check_directory, check_distinct, check_file, write_directory};
 use crate::{CommandError, tables};
@@ -29,6 +29,8 @@ pub(crate) struct Arrange {
     /// Write each bounded cell as a triangulated OBJ file into a new directory.
     #[arg(long, value_name = "DIR")]
     obj: Option<PathBuf>,
+    #[command(flatten)]
+    coplanarity: Coplanarity,
     #[command(flatten)]
     threads: Threads,
 }
@@ -59,6 +61,7 @@ struct Report {
     dangling_faces: usize,
     inputs: Vec<Operand>,
     grid_step: f64,
+    moved: Moves,
     exact_fallbacks: u64,
     threads: usize,
     seconds: Seconds,
@@ -80,7 +83,7 @@ impl Arrange {
         let sink = self.json.as_deref().map(Sink::from);
         self.check_outputs(sink.as_ref())?;
         let operands = self.inputs.read()?;
-        let (arrangement, time) = self.threads.arrange(&operands.surfaces)?;
+        let (arrangement, time) = arrange(&operands.surfaces, self.threads, self.coplanarity)?;
         let report = self.report(&arrangement, &operands, time, start);
         if let Some(dir) = &self.obj {
             write_cells(&arrangement, dir)?;
@@ -123,6 +126,7 @@ impl Arrange {
             dangling_faces: a.dangling_faces().count(),
             inputs: Operand::all(a, operands),
             grid_step: a.stats().grid_step,
+            moved: Moves::of(a.stats()),
             exact_fallbacks: a.stats().exact_fallbacks,
             threads: self.threads.count().get(),
             seconds: Seconds {
@@ -169,6 +173,9 @@ fn print(arrangement: &Arrangement, report: &Report, out: &mut dyn Write) -> Res
     print_laws(&laws, out)?;
     if 0 < report.dangling_faces {
         writeln!(out, "{} with the same cell on both sides", counted(report.dangling_faces, "face"))?;
+    }
+    if let Some(moved) = report.moved.line() {
+        writeln!(out, "{moved}")?;
     }
     for open in report.inputs.iter().filter_map(Operand::warning) {
         writeln!(out, "{open}")?;

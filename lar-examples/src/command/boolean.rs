@@ -1,7 +1,7 @@
 //! `lar boolean`: a Boolean expression over the inputs, as a surface.
 
 use super::input::{Inputs, Operands, is_json};
-use super::report::{Operand, Stages, Threads, counted};
+use super::report::{Coplanarity, Moves, Operand, Stages, Threads, arrange, counted};
 use crate::CommandError;
 use crate::output::{Sink, check_distinct, check_file};
 use lar_arrangement::{Arrangement, Detail, Expression, FillRule, Solid, SolidComplex};
@@ -33,6 +33,8 @@ pub(crate) struct Boolean {
     /// Keep the faces as the inputs cut them, instead of merging those of one plane.
     #[arg(long)]
     keep_fragments: bool,
+    #[command(flatten)]
+    coplanarity: Coplanarity,
     #[command(flatten)]
     threads: Threads,
 }
@@ -82,6 +84,7 @@ struct Report {
     cells: Vec<u32>,
     inputs: Vec<Operand>,
     grid_step: f64,
+    moved: Moves,
     exact_fallbacks: u64,
     threads: usize,
     seconds: Seconds,
@@ -118,7 +121,7 @@ impl Boolean {
         sink.as_ref().map_or(Ok(()), Sink::check)?;
         let operands = self.inputs.read()?;
         let expression = Expression::parse(&self.expression, &operands.names())?;
-        let (arrangement, time) = self.threads.arrange(&operands.surfaces)?;
+        let (arrangement, time) = arrange(&operands.surfaces, self.threads, self.coplanarity)?;
         let before = Instant::now();
         let solid = arrangement
             .boolean(&expression, self.fill.into())
@@ -179,6 +182,7 @@ impl Boolean {
             cells: solid.cells().iter().map(|c| c.0).collect(),
             inputs: Operand::all(arrangement, operands),
             grid_step: arrangement.stats().grid_step,
+            moved: Moves::of(arrangement.stats()),
             exact_fallbacks: arrangement.stats().exact_fallbacks,
             threads: self.threads.count().get(),
             seconds: Seconds {

@@ -2,8 +2,9 @@
 //! files.
 //!
 //! ```text
-//! lar arrange INPUT... [--json PATH|-] [--complex PATH] [--obj DIR] [--threads N]
-//! lar boolean EXPR INPUT... -o OUT [--json PATH|-] [--fill RULE] [--keep-fragments] [--threads N]
+//! lar arrange INPUT... [--json PATH|-] [--complex PATH] [--obj DIR] [--as-given | --tolerance LENGTH] [--threads N]
+//! lar boolean EXPR INPUT... -o OUT [--json PATH|-] [--fill RULE] [--keep-fragments] [--as-given | --tolerance LENGTH]
+//!           [--threads N]
 //! lar render INPUT... -o OUT.png [--explode S | SX,SY,SZ] [--alpha A] [--size WxH] [--cells all|solid]
 //! lar view INPUT... [--explode S | SX,SY,SZ] [--alpha A] [--cells all|solid]
 //! lar info INPUT

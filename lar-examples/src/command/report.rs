@@ -1,7 +1,7 @@
 //! Parts that the reports of several commands share.
 
 use crate::CommandError;
-use lar_arrangement::{Arrangement, Arranger, Closure, Stats};
+use lar_arrangement::{Arrangement, Arranger, Closure, Planes, Stats};
 use lar_core::{CellId, Surface};
 use serde::{Serialize, Serializer};
 use std::io::Write;
@@ -21,12 +21,67 @@ impl Threads {
         let all = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
         self.threads.unwrap_or_else(all)
     }
+}
 
-    /// The arrangement of the surfaces, and the time it took.
-    pub(crate) fn arrange(self, surfaces: &[Surface]) -> Result<(Arrangement, Duration), CommandError> {
-        let start = Instant::now();
-        let arrangement = Arranger::new().threads(self.count()).arrange(surfaces)?;
-        Ok((arrangement, start.elapsed()))
+/// What becomes of faces that are nearly coplanar.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(crate) struct Coplanarity {
+    /// Leave nearly coplanar faces and nearly equal vertices where they are. Without it they are unified as far as the
+    /// rounding of the files explains.
+    #[arg(long)]
+    as_given: bool,
+    /// Unify nearly coplanar faces of coordinates that are off by up to this length.
+    #[arg(long, value_name = "LENGTH", value_parser = tolerance, conflicts_with = "as_given", allow_hyphen_values = true)]
+    tolerance: Option<f64>,
+}
+
+impl Coplanarity {
+    fn planes(self) -> Planes {
+        match (self.as_given, self.tolerance) {
+            (true, _) => Planes::AsGiven,
+            (false, Some(length)) => Planes::Within(length),
+            (false, None) => Planes::Canonical,
+        }
+    }
+}
+
+fn tolerance(text: &str) -> Result<f64, &'static str> {
+    let length = text.parse().ok().filter(|x: &f64| x.is_finite() && *x >= 0.0);
+    length.ok_or("a tolerance is a length of at least 0")
+}
+
+/// The arrangement of the surfaces, and the time it took.
+pub(crate) fn arrange(
+    surfaces: &[Surface],
+    threads: Threads,
+    coplanarity: Coplanarity,
+) -> Result<(Arrangement, Duration), CommandError> {
+    let start = Instant::now();
+    let arranger = Arranger::new().threads(threads.count()).planes(coplanarity.planes());
+    let arrangement = arranger.arrange(surfaces)?;
+    Ok((arrangement, start.elapsed()))
+}
+
+/// What was moved so that nearly coplanar faces are coplanar.
+#[derive(Debug, Serialize)]
+pub(crate) struct Moves {
+    planes: u64,
+    points: u64,
+    /// The farthest move, in the files' unit.
+    farthest: f64,
+}
+
+impl Moves {
+    pub(crate) fn of(stats: &Stats) -> Self {
+        Self { planes: stats.canonical_planes, points: stats.moved_points, farthest: stats.farthest_move }
+    }
+
+    /// A line about them, when there are any.
+    pub(crate) fn line(&self) -> Option<String> {
+        let points = counted(usize::try_from(self.points).unwrap_or(usize::MAX), "point");
+        (self.points > 0).then(|| {
+            format!("{points} moved by up to {:.1e}, onto {} common planes", self.farthest, self.planes)
+        })
     }
 }
 

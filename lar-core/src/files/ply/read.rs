@@ -28,8 +28,9 @@ pub(crate) fn read(source: &mut Source<'_>) -> Result<SurfaceFile, MeshFileError
     }
     let precision = items.precision(header.coordinates);
     let points = Points::from_columns(3, items.coords);
-    let surface = Surface::from_polygons(source.stem(), points, items.polygons);
-    Ok(SurfaceFile { surface, format: header.format, precision, weld: None })
+    let mut surface = Surface::from_polygons(source.stem(), points, items.polygons);
+    surface.precision = precision;
+    Ok(SurfaceFile { surface, format: header.format, weld: None })
 }
 
 /// The items read so far.

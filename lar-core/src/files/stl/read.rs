@@ -227,7 +227,8 @@ impl<T: Bits> Facets<T> {
         let weld =
             Weld { corners: self.corners, vertices, collapsed: (self.corners - self.indices.len()) / 3 };
         let points = self.welder.into_points();
-        let surface = Surface::from_polygons(source.stem(), points, Cells::uniform(3, self.indices));
-        Ok(SurfaceFile { surface, format, precision, weld: Some(weld) })
+        let mut surface = Surface::from_polygons(source.stem(), points, Cells::uniform(3, self.indices));
+        surface.precision = precision;
+        Ok(SurfaceFile { surface, format, weld: Some(weld) })
     }
 }
