@@ -34,6 +34,8 @@ pub struct Arrangement {
     pub(crate) solids: Vec<SolidInfo>,
     pub(crate) vertices: Vec<Vertex>,
     pub(crate) geometry: Geometry,
+    /// How far, in grid steps, corners may lie from the plane of their face.
+    pub(crate) bend: f64,
     pub(crate) stats: Stats,
 }
 

@@ -2,7 +2,6 @@
 
 use crate::arrangement::Arrangement;
 use crate::kernel::{Geometry, Sign, Support, Vertex};
-use crate::pipeline::FLATNESS;
 use crate::skeleton::Skeleton;
 use crate::soup::Soup;
 use crate::split::Cuts;
@@ -149,7 +148,7 @@ pub(crate) fn arrangement(a: &Arrangement) -> Result<(), Failure> {
 
 /// By how much rounding may change the volume of each cell.
 ///
-/// Faces are moved by less than a grid step, and those put together again from triangles bend by up to `FLATNESS` steps,
+/// Faces are moved by less than a grid step, and those put together again from triangles bend by some more,
 /// which sweeps their surface and a strip along their border times that. The surface is measured as a fan, because
 /// the vector area of a face that folds is too small.
 /// The volume is then evaluated as a sum over corners of (difference × difference) · difference, six roundings of
@@ -168,7 +167,7 @@ fn volume_slack(a: &Arrangement) -> Vec<f64> {
                 corners += 1.0;
             }
         }
-        let moved = (a.fan_area(face) + perimeter * step) * (4.0 + FLATNESS) * step;
+        let moved = (a.fan_area(face) + perimeter * step) * (4.0 + a.bend) * step;
         let evaluated = corners * perimeter * perimeter * diameter * 2f64.powi(-50);
         cells.iter().for_each(|&c| slack[c as usize] += moved + evaluated);
     }

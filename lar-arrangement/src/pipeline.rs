@@ -379,6 +379,7 @@ fn assemble(
             .map(|(s, coefficients)| SolidInfo { name: s.name.clone(), coefficients })
             .collect(),
         vertices,
+        bend: soup.bend,
         geometry: soup.geometry,
         stats,
     }

@@ -77,6 +77,8 @@ pub(crate) struct Soup {
     pub degenerate: u32,
     /// Polygons that had to be triangulated.
     pub triangulated: u32,
+    /// How far, in grid steps, the corners of those lie from a plane that are put together again.
+    pub bend: f64,
 }
 
 impl Soup {
@@ -103,6 +105,7 @@ impl Soup {
                 coefficients: Vec::new(),
                 degenerate: 0,
                 triangulated: 0,
+                bend: 0.0,
             },
             triangle_ids: FxHashMap::default(),
             polygon_ids: FxHashMap::default(),
@@ -342,7 +345,11 @@ impl Builder {
                 Some(true)
             }
             Shape::Triangles(triangles) => {
-                let flat = shape.deviation() <= self.flatness;
+                let deviation = shape.deviation();
+                let flat = deviation <= self.flatness;
+                if flat {
+                    self.soup.bend = self.soup.bend.max(deviation);
+                }
                 self.push_triangles(loops, &triangles, polygon, flat).then_some(flat)
             }
             Shape::Degenerate => None,
