@@ -53,7 +53,7 @@ pub enum Planes {
 }
 
 /// Numbers of fewer digits, like 0.5, are taken to be meant exactly.
-const SHORT: u32 = 5;
+const SHORT: u32 = 6;
 
 /// Options for an arrangement.
 ///

@@ -14,7 +14,8 @@ const SNAPPING_STEPS: f64 = 4.0;
 type Vec3 = [f64; 3];
 
 /// True when each face of the arrangement has a parent, and the vector areas of the pieces of each input face, taken
-/// with their relative signs, add up to its own: within 1e-9 of the area plus what snapping to the grid can change.
+/// with their relative signs, add up to its own: within 1e-9 of the area plus what snapping to the grid can change, and
+/// what moved onto canonical planes.
 ///
 /// `surfaces` are those that were arranged. O(size of both).
 #[must_use]
@@ -34,11 +35,12 @@ pub fn parents_ok(arrangement: &Arrangement, surfaces: &[Surface]) -> bool {
             *sum = std::array::from_fn(|k| sum[k] + f64::from(parent.sign) * area[k]);
         }
     }
-    let step = arrangement.stats().grid_step * scale;
+    let stats = arrangement.stats();
+    let moved = (SNAPPING_STEPS * stats.grid_step + 2.0 * stats.farthest_move) * scale;
     surfaces.iter().zip(&sums).all(|(surface, sums)| {
         (0..surface.n_faces()).zip(sums).all(|(f, &sum)| {
             let (area, perimeter) = measures(surface.face(f), |v| scaled(&surface.points, v, scale));
-            let slack = AREA_TOLERANCE * length(area) + SNAPPING_STEPS * step * perimeter;
+            let slack = AREA_TOLERANCE * length(area) + moved * (perimeter + moved);
             length(sub(area, sum)) <= slack
         })
     })

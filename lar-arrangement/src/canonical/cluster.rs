@@ -119,7 +119,7 @@ impl Search<'_> {
         let corners = self.corners(&polygons);
         let Some(fit) = Fit::new(self.geometry(), &corners) else { return Ok(None) };
         let tolerance = self.tolerance(&polygons);
-        if fit.deviation > 2.0 * tolerance {
+        if fit.deviation > tolerance {
             return Err(polygons);
         }
         Ok(Some(Cluster {

@@ -68,7 +68,7 @@ impl Fit {
         };
         near(along_axis, tolerance)
             .or_else(|| near(without_minor, tolerance))
-            .or_else(|| near(small, 2.0 * tolerance))
+            .or_else(|| near(small, tolerance))
             .unwrap_or_else(|| centred(geometry, corners, small))
     }
 }

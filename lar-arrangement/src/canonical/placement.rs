@@ -65,7 +65,7 @@ fn placed(at: [i64; 3], candidates: &[(u32, bool)], clusters: &[Cluster]) -> (Ra
         let cluster = &clusters[candidate as usize];
         basis.push(&cluster.plane);
         match nearest_on(at, &basis) {
-            Some(moved) if distance(home, moved.rounded()) <= 2.0 * cluster.tolerance => point = moved,
+            Some(moved) if distance(home, moved.rounded()) <= cluster.tolerance => point = moved,
             _ => drop(basis.pop()),
         }
     }
