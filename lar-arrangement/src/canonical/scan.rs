@@ -1,15 +1,15 @@
-//! One pass over the pairs of facets whose boxes meet: which have corners that are nearly one, and which lie nearly in
-//! one plane.
+//! Which points are nearly one, and which pairs of facets lie nearly in one plane.
 
 use super::Input;
 use super::vector::{cross, distance, dot, minus};
+use crate::boxes::{Aabb, BoxTree};
 use crate::parallel;
 
 /// Pairs of facets a chunk of work.
 const PAIRS_A_CHUNK: usize = 1 << 14;
 
 /// What the pass found.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Scan {
     /// Pairs of points within the tolerance, ascending.
     pub near: Vec<[u32; 2]>,
@@ -28,60 +28,95 @@ pub(super) struct Shape {
     pub width: f64,
     /// No corner is farther from the origin.
     reach: f64,
-    /// How far apart points may lie that were one, and how far from a plane its corners.
-    points: f64,
+    /// How far from a plane its corners may lie.
     planes: f64,
+}
+
+/// The same in 32 bits, for the great majority of pairs.
+#[derive(Clone, Copy, Debug)]
+struct Outline {
+    unit: [f32; 3],
+    width: f32,
+    reach: f32,
+    planes: f32,
 }
 
 impl Scan {
     pub(crate) fn new(input: &Input) -> Self {
         let n_facets = input.soup.n_facets() as u32;
         let shapes: Vec<Shape> = (0..n_facets).map(|f| Shape::of(input, f)).collect();
+        let outlines: Vec<Outline> = shapes.iter().map(Outline::of).collect();
         let (n_chunks, range) = parallel::chunks(input.pairs.len(), PAIRS_A_CHUNK);
-        let parts = parallel::map(n_chunks, |chunk| {
-            let mut out = Self::default();
-            input.pairs[range(chunk)].iter().for_each(|&pair| out.visit(input, &shapes, pair));
-            out
-        });
-        let mut all = Self::default();
-        for part in parts {
-            all.near.extend(part.near);
-            all.coplanar.extend(part.coplanar);
-        }
-        all.near.sort_unstable();
-        all.near.dedup();
-        Self { shapes, ..all }
+        let coplanar = parallel::map(n_chunks, |chunk| {
+            let pairs = input.pairs[range(chunk)].iter().copied();
+            let near = |&[f, g]: &[u32; 2]| {
+                !outlines[f as usize].is_across(&outlines[g as usize])
+                    && are_nearly_coplanar(input, &shapes, [f, g])
+            };
+            pairs.filter(near).collect::<Vec<_>>()
+        })
+        .concat();
+        Self { near: near_points(input), coplanar, shapes }
     }
+}
 
-    fn visit(&mut self, input: &Input, shapes: &[Shape], [f, g]: [u32; 2]) {
-        let (a, b) = (&shapes[f as usize], &shapes[g as usize]);
-        self.push_near_points(input, [f, g], a.points.max(b.points));
-        let polygons = [f, g].map(|f| input.soup.facet_polygon[f as usize]);
-        let are_flat = polygons.iter().all(|&p| input.soup.polygon_flat[p as usize]);
-        if are_flat && polygons[0] != polygons[1] {
-            let (wide, narrow, facet) = if a.width >= b.width { (a, b, g) } else { (b, a, f) };
-            if wide.nearly_holds(narrow, || input.corners(facet).map(|p| input.soup.geometry.position(p))) {
-                self.coplanar.push([f, g]);
-            }
+/// Pairs of points within the tolerance, ascending. A point is worth what the worst of its surfaces is.
+fn near_points(input: &Input) -> Vec<[u32; 2]> {
+    let geometry = &input.soup.geometry;
+    let mut limits = vec![0.0f64; geometry.n_points()];
+    for (points, tolerance) in input.soup.point_of.iter().zip(input.tolerances) {
+        for &p in points {
+            limits[p as usize] = limits[p as usize].max(tolerance.points());
         }
     }
+    let boxed = |(&limit, p): (&f64, u32)| {
+        let at = geometry.position(p);
+        Aabb { lo: at.map(|x| x - limit), hi: at.map(|x| x + limit) }
+    };
+    let boxes: Vec<Aabb> = limits.iter().zip(0..).map(boxed).collect();
+    let is_near = |&[p, q]: &[u32; 2]| {
+        let (a, b) = (geometry.nearest_grid_point(p), geometry.nearest_grid_point(q));
+        let limit = limits[p as usize].max(limits[q as usize]);
+        (0..3).all(|k| a[k].abs_diff(b[k]) as f64 <= limit)
+    };
+    let ascending = |[p, q]: [u32; 2]| [p.min(q), p.max(q)];
+    let mut near: Vec<[u32; 2]> =
+        BoxTree::new(&boxes).pairs().into_iter().filter(is_near).map(ascending).collect();
+    near.sort_unstable();
+    near
+}
 
-    fn push_near_points(&mut self, input: &Input, [f, g]: [u32; 2], limit: f64) {
-        let geometry = &input.soup.geometry;
-        let is_triangle = |f: u32| input.soup.facet_edges[f as usize].len() == 3;
-        let mut test = |p: u32, q: u32| {
-            let (a, b) = (geometry.nearest_grid_point(p), geometry.nearest_grid_point(q));
-            if p != q && (0..3).all(|k| a[k].abs_diff(b[k]) as f64 <= limit) {
-                self.near.push([p.min(q), p.max(q)]);
-            }
-        };
-        if is_triangle(f) && is_triangle(g) {
-            let (corners, others) = (geometry.base(f), geometry.base(g));
-            corners.into_iter().for_each(|p| others.into_iter().for_each(|q| test(p, q)));
-        } else {
-            // At most 64 corners each.
-            input.corners(f).for_each(|p| input.corners(g).for_each(|q| test(p, q)));
+fn are_nearly_coplanar(input: &Input, shapes: &[Shape], [f, g]: [u32; 2]) -> bool {
+    let (a, b) = (&shapes[f as usize], &shapes[g as usize]);
+    let polygons = [f, g].map(|f| input.soup.facet_polygon[f as usize]);
+    if polygons[0] == polygons[1] || polygons.iter().any(|&p| !input.soup.polygon_flat[p as usize]) {
+        return false;
+    }
+    let (wide, narrow, facet) = if a.width >= b.width { (a, b, g) } else { (b, a, f) };
+    wide.nearly_holds(narrow, || input.corners(facet).map(|p| input.soup.geometry.position(p)))
+}
+
+impl Outline {
+    fn of(shape: &Shape) -> Self {
+        Self {
+            unit: shape.unit.map(|x| x as f32),
+            width: shape.width as f32,
+            reach: shape.reach as f32,
+            planes: shape.planes as f32,
         }
+    }
+
+    /// Whether the angle between the planes alone tells that two facets whose boxes meet are not nearly coplanar.
+    fn is_across(&self, other: &Self) -> bool {
+        let (m, n) = (self.unit, other.unit);
+        let normal = [m[1] * n[2] - m[2] * n[1], m[2] * n[0] - m[0] * n[2], m[0] * n[1] - m[1] * n[0]];
+        let sine = normal.iter().map(|x| x * x).sum::<f32>().sqrt();
+        let (wide, narrow) = (self.width.max(other.width), self.width.min(other.width));
+        let tolerance = self.planes.max(other.planes);
+        // As in `nearly_holds`. The boxes are within the reach of the origins and, up to the tolerance, meet; rounding to
+        // 32 bits changes a sine by less than 2^-20.
+        let apart = 2.0 * (self.reach + other.reach + 2.0 * tolerance) + self.reach.max(other.reach);
+        (sine - 1e-6) * narrow > 2.0 * tolerance * (1.0 + 2.0 * apart / wide)
     }
 }
 
@@ -96,14 +131,12 @@ impl Shape {
             3 => longest,
             _ => input.corners(facet).map(|p| distance(a, geometry.position(p))).fold(0.0, f64::max),
         };
-        let tolerance = input.tolerance(facet);
         Self {
             unit: normal.map(|x| x / length),
             origin: a,
             width: length / longest,
             reach,
-            points: tolerance.points(),
-            planes: tolerance.planes(),
+            planes: input.tolerance(facet).planes(),
         }
     }
 
