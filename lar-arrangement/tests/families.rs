@@ -349,6 +349,7 @@ fn check_sponge(level: u32, genus: i64) {
 fn menger_sponges() {
     check_sponge(1, 5);
     check_sponge(2, 81);
+    check_sponge(3, 1409);
 }
 
 /// Sizes from 10^-300 to 10^300 in one scene: what is smaller than the grid is a point, the rest stays.
