@@ -390,7 +390,8 @@ impl Builder {
         true
     }
 
-    /// The plane of a facet of which three corners are given, which turn about its normal: the shared one of the face at hand, when all three are on it. False, and nothing, when they are on one line.
+    /// Adds the plane of a facet by three corners that turn about its normal: the shared one of the face at hand, when
+    /// all three are on it. False, and nothing is added, when they are on one line.
     fn push_plane(&mut self, base: [u32; 3]) -> bool {
         let geometry = &mut self.soup.geometry;
         let plane = self.plane.filter(|&plane| base.iter().all(|&p| geometry.is_defined_on(p, plane)));

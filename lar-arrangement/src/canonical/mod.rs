@@ -28,7 +28,7 @@ pub(crate) struct Tolerance {
 }
 
 /// Coordinates that are off by more than this many grid steps, 2^-16 of the model's extent, are taken as they are:
-/// what was meant to be equal can not be told from what was meant to be small.
+/// what was meant to be equal cannot be told from what was meant to be small.
 const LARGEST_ERROR: f64 = (1 << 24) as f64;
 
 impl Tolerance {
@@ -36,6 +36,7 @@ impl Tolerance {
     pub(crate) fn new(error: f64) -> Self {
         Self { error: if error > LARGEST_ERROR { 0.5 } else { error } }
     }
+
     /// Two points that were one differ by two errors in a coordinate.
     fn points(self) -> f64 {
         3.0 * self.error

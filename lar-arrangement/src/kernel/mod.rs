@@ -24,6 +24,8 @@
 //! | the same with the midpoint of two of them | 1076 | 2924 | 5608 |
 //! | two of them, order of hits of a ray from their midpoint | 708 | 1629 | 3723 |
 
+#[cfg(test)]
+mod budget;
 mod double;
 mod exact;
 mod geometry;
