@@ -2,14 +2,13 @@
 
 use crate::arrangement::{Arrangement, SolidInfo};
 use crate::boxes::{Aabb, BoxTree};
-use crate::canonical::{self, Input, Report, Scan, Tolerance};
+use crate::canonical::{self, Input, Report, Scan};
 use crate::check;
 use crate::coplanar;
 use crate::crossing::{self, Contacts, Scratch};
 use crate::dissolve::{self, Dissolved};
 use crate::error::ArrangementError;
 use crate::fragment::{Fragmenter, Fragments};
-use crate::grid::Grid;
 use crate::interner::Interner;
 use crate::merge::Merged;
 use crate::nest::Nesting;
@@ -189,15 +188,12 @@ impl Arranger {
         stats: &mut Stats,
         watch: &mut Watch,
     ) -> Result<(Soup, Vec<[u32; 2]>), ArrangementError> {
-        let placed = Placed::snapped(surfaces)?;
-        let tolerances: Vec<Tolerance> = surfaces.iter().map(|s| self.tolerance(s, &placed.grid)).collect();
-        let flatness: Vec<f64> = tolerances.iter().map(|t| t.flatness()).collect();
-        let reach = if self.planes == Planes::AsGiven {
-            0.0
-        } else {
-            tolerances.iter().map(|t| t.planes()).fold(0.0, f64::max)
+        let placed = Placed::snapped(surfaces, |surface, size| self.error(surface, size))?;
+        let reach = match self.planes {
+            Planes::AsGiven => 0.0,
+            _ => placed.tolerances.iter().map(|t| t.planes()).fold(0.0, f64::max),
         };
-        let mut soup = Soup::new(surfaces, placed, &flatness);
+        let mut soup = Soup::new(surfaces, placed);
         watch.lap(stats, "soup");
         let mut pairs = BoxTree::new(&facet_boxes(&soup, reach)).pairs();
         watch.lap(stats, "pairs");
@@ -205,16 +201,16 @@ impl Arranger {
             return Ok((soup, pairs));
         }
         let mut report = Report::default();
-        let input = Input { soup: &soup, pairs: &pairs, tolerances: &tolerances };
+        let input = Input { soup: &soup, pairs: &pairs };
         let mut scan = Scan::new(&input);
         if let Some(placed) = canonical::merged_points(&input, &scan, &mut report) {
-            soup = Soup::new(surfaces, placed, &flatness);
+            soup = Soup::new(surfaces, placed);
             pairs = BoxTree::new(&facet_boxes(&soup, reach)).pairs();
-            scan = Scan::new(&Input { soup: &soup, pairs: &pairs, tolerances: &tolerances });
+            scan = Scan::new(&Input { soup: &soup, pairs: &pairs });
         }
-        let input = Input { soup: &soup, pairs: &pairs, tolerances: &tolerances };
+        let input = Input { soup: &soup, pairs: &pairs };
         if let Some(placed) = canonical::on_planes(&input, &scan, &mut report) {
-            soup = Soup::new(surfaces, placed, &flatness);
+            soup = Soup::new(surfaces, placed);
             pairs = BoxTree::new(&facet_boxes(&soup, 0.0)).pairs();
         }
         stats.canonical_planes = report.planes;
@@ -224,22 +220,14 @@ impl Arranger {
         Ok((soup, pairs))
     }
 
-    fn tolerance(&self, surface: &Surface, grid: &Grid) -> Tolerance {
-        let source = match self.planes {
-            Planes::AsGiven => 0.0,
-            Planes::Within(length) => length,
-            Planes::Canonical => {
-                let size = surface
-                    .points
-                    .bounds()
-                    .map_or(0.0, |(lo, hi)| lo.iter().chain(&hi).fold(0.0, |size: f64, x| size.max(x.abs())));
-                match surface.precision {
-                    Precision::Decimal { significant, .. } if significant < SHORT => 0.0,
-                    precision => precision.rounding_error(size),
-                }
-            }
-        };
-        Tolerance::new((grid.coarseness() / 2.0).max(source / grid.step()))
+    /// By what length a coordinate of some magnitude may be off because of where it comes from.
+    fn error(&self, surface: &Surface, size: f64) -> f64 {
+        match (self.planes, surface.precision) {
+            (Planes::AsGiven, _) => 0.0,
+            (Planes::Within(length), _) => length,
+            (Planes::Canonical, Precision::Decimal { significant, .. }) if significant < SHORT => 0.0,
+            (Planes::Canonical, precision) => precision.rounding_error(size),
+        }
     }
 
     fn check(&self, test: impl FnOnce() -> Result<(), check::Failure>) -> Result<(), ArrangementError> {

@@ -4,6 +4,7 @@
 //! afterwards: each facet is exactly planar, its edges are in one table, and an edge is *soft* when it is only a
 //! diagonal inside a polygon.
 
+use crate::canonical::Tolerance;
 use crate::error::ArrangementError;
 use crate::grid::Grid;
 use crate::kernel::{Geometry, Sign};
@@ -33,17 +34,31 @@ pub(crate) struct Placed {
     pub point_ids: PointIds,
     /// The point of each vertex of each surface.
     pub point_of: Vec<Vec<u32>>,
+    /// How far each point may lie from where it was meant to be.
+    pub tolerances: Vec<Tolerance>,
     /// The shared plane of each face of each surface; empty when there is none.
     pub plane_of_face: Vec<Vec<Option<u32>>>,
 }
 
 impl Placed {
-    /// Snaps and unifies; refuses non-finite coordinates and indices out of range.
-    pub(crate) fn snapped(surfaces: &[Surface]) -> Result<Self, ArrangementError> {
+    /// Snaps and unifies; refuses non-finite coordinates and indices out of range. `error` says by what length a
+    /// coordinate of some magnitude may be off in a surface.
+    pub(crate) fn snapped(
+        surfaces: &[Surface],
+        error: impl Fn(&Surface, f64) -> f64,
+    ) -> Result<Self, ArrangementError> {
         let grid = fitted_grid(surfaces)?;
         let (points, point_ids, point_of) = unified_points(surfaces, &grid);
+        let mut tolerances = vec![Tolerance::new(grid.coarseness() / 2.0); points.len()];
+        for (surface, of) in surfaces.iter().zip(&point_of) {
+            for (p, &id) in surface.points.iter().zip(of) {
+                let size = p.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
+                let worth = Tolerance::new(error(surface, size) / grid.step());
+                tolerances[id as usize] = tolerances[id as usize].max(worth);
+            }
+        }
         let geometry = Geometry::new(points);
-        Ok(Self { grid, geometry, point_ids, point_of, plane_of_face: Vec::new() })
+        Ok(Self { grid, geometry, point_ids, point_of, tolerances, plane_of_face: Vec::new() })
     }
 }
 
@@ -71,6 +86,8 @@ pub(crate) struct Soup {
     pub point_ids: PointIds,
     /// The point of each vertex of each surface.
     pub point_of: Vec<Vec<u32>>,
+    /// How far each point may lie from where it was meant to be.
+    pub tolerances: Vec<Tolerance>,
     /// Coefficient of each surface's faces in the boundary of its solid.
     pub coefficients: Vec<Vec<i8>>,
     /// Input faces without an inside (all corners on one line after snapping).
@@ -84,10 +101,10 @@ pub(crate) struct Soup {
 impl Soup {
     /// Makes facets of the faces.
     ///
-    /// Polygons whose corners deviate from a plane by more than `flatness[solid]` grid steps are not treated as planar:
-    /// their diagonals become edges of the result.
-    pub(crate) fn new(surfaces: &[Surface], placed: Placed, flatness: &[f64]) -> Self {
-        let Placed { grid, geometry, point_ids, point_of, plane_of_face } = placed;
+    /// Polygons whose corners deviate from a plane by more than their tolerance are not treated as planar: their
+    /// diagonals become edges of the result.
+    pub(crate) fn new(surfaces: &[Surface], placed: Placed) -> Self {
+        let Placed { grid, geometry, point_ids, point_of, tolerances, plane_of_face } = placed;
         let mut builder = Builder {
             soup: Self {
                 geometry,
@@ -102,6 +119,7 @@ impl Soup {
                 edge_ids: FxHashMap::default(),
                 point_ids,
                 point_of: Vec::new(),
+                tolerances,
                 coefficients: Vec::new(),
                 degenerate: 0,
                 triangulated: 0,
@@ -111,7 +129,7 @@ impl Soup {
             polygon_ids: FxHashMap::default(),
             parents: Vec::new(),
             directed: Vec::new(),
-            flatness: 0.0,
+
             plane: None,
         };
         let n_faces = surfaces.iter().map(Surface::n_faces).sum();
@@ -119,7 +137,6 @@ impl Soup {
         builder.triangle_ids.reserve(n_faces);
         builder.soup.edge_ids.reserve(n_faces * 3 / 2);
         for (solid, (surface, point_of)) in surfaces.iter().zip(&point_of).enumerate() {
-            builder.flatness = flatness[solid];
             for face in 0..surface.n_faces() {
                 builder.plane = plane_of_face.get(solid).and_then(|planes| planes[face]);
                 builder.push_face(solid, surface, face, point_of);
@@ -233,8 +250,7 @@ struct Builder {
     parents: Vec<(u32, Parent)>,
     /// Buffer for the edges of one facet.
     directed: Vec<u32>,
-    /// That of the surface at hand.
-    flatness: f64,
+
     /// The shared plane of the face at hand.
     plane: Option<u32>,
 }
@@ -346,7 +362,8 @@ impl Builder {
             }
             Shape::Triangles(triangles) => {
                 let deviation = shape.deviation();
-                let flat = deviation <= self.flatness;
+                let corners = loops.iter().flatten();
+                let flat = deviation <= Tolerance::of(&self.soup.tolerances, corners.copied()).flatness();
                 if flat {
                     self.soup.bend = self.soup.bend.max(deviation);
                 }

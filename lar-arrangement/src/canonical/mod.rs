@@ -20,11 +20,11 @@ use crate::soup::{Placed, Soup};
 pub(crate) use scan::Scan;
 use vector::distance;
 
-/// How far from each other, in grid steps, what was meant to be equal may lie in one surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// How far, in grid steps, coordinates may lie from what was meant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 pub(crate) struct Tolerance {
     /// Error of a coordinate: half a step, or half a unit of the source's last digit.
-    pub error: f64,
+    error: f64,
 }
 
 /// Coordinates that are off by more than this many grid steps, 2^-16 of the model's extent, are taken as they are:
@@ -35,6 +35,15 @@ impl Tolerance {
     /// For coordinates that are off by up to so many grid steps.
     pub(crate) fn new(error: f64) -> Self {
         Self { error: if error > LARGEST_ERROR { 0.5 } else { error } }
+    }
+
+    pub(crate) fn max(self, other: Self) -> Self {
+        Self { error: self.error.max(other.error) }
+    }
+
+    /// The largest of some points.
+    pub(crate) fn of(tolerances: &[Self], points: impl Iterator<Item = u32>) -> Self {
+        points.fold(Self::default(), |max, p| max.max(tolerances[p as usize]))
     }
 
     /// Two points that were one differ by two errors in a coordinate.
@@ -73,19 +82,15 @@ impl Report {
     }
 }
 
-/// Facets of a soup, the pairs of them whose boxes meet, and what the surfaces are worth.
+/// Facets of a soup, and the pairs of them whose boxes meet.
 pub(crate) struct Input<'a> {
     pub soup: &'a Soup,
     pub pairs: &'a [[u32; 2]],
-    /// For each surface.
-    pub tolerances: &'a [Tolerance],
 }
 
 impl Input<'_> {
     fn tolerance(&self, facet: u32) -> Tolerance {
-        let of = |solid: u32| self.tolerances[solid as usize].error;
-        let error = self.soup.parents(facet).iter().map(|p| of(p.solid)).fold(0.0, f64::max);
-        Tolerance { error }
+        Tolerance::of(&self.soup.tolerances, self.corners(facet))
     }
 
     fn corners(&self, facet: u32) -> impl Iterator<Item = u32> + Clone + '_ {
@@ -123,6 +128,7 @@ pub(crate) fn merged_points(input: &Input, scan: &Scan, report: &mut Report) -> 
         geometry: Geometry::new(staying),
         point_ids,
         point_of: renumbered(&input.soup.point_of, &new_id),
+        tolerances: carried(&input.soup.tolerances, &new_id),
         plane_of_face: Vec::new(),
     })
 }
@@ -140,4 +146,14 @@ pub(crate) fn on_planes(input: &Input, scan: &Scan, report: &mut Report) -> Opti
 
 fn renumbered(point_of: &[Vec<u32>], new_id: &[u32]) -> Vec<Vec<u32>> {
     point_of.iter().map(|of| of.iter().map(|&p| new_id[p as usize]).collect()).collect()
+}
+
+/// The tolerances of points with new numbers.
+fn carried(tolerances: &[Tolerance], new_id: &[u32]) -> Vec<Tolerance> {
+    let n = new_id.iter().max().map_or(0, |&last| last as usize + 1);
+    let mut out = vec![Tolerance::default(); n];
+    for (&tolerance, &id) in tolerances.iter().zip(new_id) {
+        out[id as usize] = out[id as usize].max(tolerance);
+    }
+    out
 }

@@ -2,7 +2,7 @@
 
 use super::cluster::Cluster;
 use super::vector::distance;
-use super::{Report, renumbered};
+use super::{Report, carried, renumbered};
 use crate::kernel::{CanonicalPoints, Geometry, Plane, RationalPoint, SharedPlane, Sign};
 use crate::soup::{Placed, PointIds, Soup};
 use rustc_hash::FxHashMap;
@@ -145,6 +145,7 @@ impl Placement {
             geometry: Geometry::canonical(points, canonical),
             point_ids,
             point_of: renumbered(&soup.point_of, &self.new_id),
+            tolerances: carried(&soup.tolerances, &self.new_id),
             plane_of_face,
         }
     }

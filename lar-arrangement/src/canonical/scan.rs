@@ -60,15 +60,10 @@ impl Scan {
     }
 }
 
-/// Pairs of points within the tolerance, ascending. A point is worth what the worst of its surfaces is.
+/// Pairs of points within the tolerance, ascending.
 fn near_points(input: &Input) -> Vec<[u32; 2]> {
     let geometry = &input.soup.geometry;
-    let mut limits = vec![0.0f64; geometry.n_points()];
-    for (points, tolerance) in input.soup.point_of.iter().zip(input.tolerances) {
-        for &p in points {
-            limits[p as usize] = limits[p as usize].max(tolerance.points());
-        }
-    }
+    let limits: Vec<f64> = input.soup.tolerances.iter().map(|t| t.points()).collect();
     let boxed = |(&limit, p): (&f64, u32)| {
         let at = geometry.position(p);
         Aabb { lo: at.map(|x| x - limit), hi: at.map(|x| x + limit) }
