@@ -4,7 +4,7 @@
 //! simple; otherwise it is triangulated with diagonals inside. What decides is exact. Only the choice of three
 //! corners and of diagonals looks at the nearest grid points instead of rational corners: any choice is right.
 
-use crate::kernel::{Geometry, Plane, Sign};
+use crate::kernel::{Geometry, Plane, Sign, dominant_axis};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
 /// Polygons with more corners are triangulated even when planar, so that testing a pair of facets has bounded cost.
@@ -91,7 +91,7 @@ impl Polygon<'_> {
     pub(crate) fn deviation(&self) -> f64 {
         let Some([a, b, c]) = self.spanning_corners() else { return 0.0 };
         let plane = Plane::through(self.at(a), self.at(b), self.at(c));
-        let length = plane.n.map(|x| (x as f64).powi(2)).iter().sum::<f64>().sqrt();
+        let length = plane.length();
         self.corners().map(|p| (plane.side(self.at(p)) as f64 / length).abs()).fold(0.0, f64::max)
     }
 
@@ -299,10 +299,6 @@ fn faces_inside(cdt: &ConstrainedDelaunayTriangulation<Point2<f64>>) -> Vec<bool
         }
     }
     depth.into_iter().map(|d| d.unwrap_or(false)).collect()
-}
-
-fn dominant_axis(n: [i128; 3]) -> usize {
-    (1..3).fold(0, |best, k| if n[k].abs() > n[best].abs() { k } else { best })
 }
 
 fn turn(a: [i64; 2], b: [i64; 2], c: [i64; 2]) -> Sign {

@@ -59,7 +59,7 @@ impl Cuts {
 }
 
 /// Where each of 0..n begins in a sorted list of them.
-fn offsets(n: usize, sorted: impl Iterator<Item = u32>) -> Vec<u32> {
+pub(crate) fn offsets(n: usize, sorted: impl Iterator<Item = u32>) -> Vec<u32> {
     let mut offsets = vec![0; n + 1];
     for x in sorted {
         offsets[x as usize + 1] += 1;

@@ -4,7 +4,7 @@
 mod common;
 
 use common::{
-    Random, arranged, assert_close, counts, cuboid, flipped, mapped, moved, sorted_volumes, surface,
+    Random, arranged, assert_close, counts, cuboid, flipped, mapped, moved, prism, sorted_volumes, surface,
 };
 use lar_arrangement::{
     Arrangement, Arranger, Checks, Detail, Expression, FillRule, Planes, Solid, operand_names,
@@ -82,26 +82,9 @@ fn crossing_walls(n: usize) -> Family {
     family(format!("{n} walls each way"), surfaces, counts, volume, Moved::CountsOnceCoplanar)
 }
 
-/// An upright prism over a regular polygon.
-fn prism(n: u32, turn: f64, z: [f64; 2]) -> Surface {
-    let corner = |i: u32, z: f64| {
-        let angle = TAU * (f64::from(i) + turn) / f64::from(n);
-        [angle.cos(), angle.sin(), z]
-    };
-    let points: Vec<[f64; 3]> = z.iter().flat_map(|&z| (0..n).map(move |i| corner(i, z))).collect();
-    let mut out = surface(&points, &[]);
-    let (top, bottom): (Vec<u32>, Vec<u32>) = ((n..2 * n).collect(), (0..n).rev().collect());
-    out.push_face([&bottom[..]], 1);
-    out.push_face([&top[..]], 1);
-    for i in 0..n {
-        out.push_face([&[i, (i + 1) % n, n + (i + 1) % n, n + i][..]], 1);
-    }
-    out
-}
-
 /// Each standing on the one below, half a step further round: polygons of twice as many corners between them.
 fn twisted_stack(n: u32, storeys: u32) -> Family {
-    let storey = |k: u32| prism(n, 0.5 * f64::from(k), [f64::from(k), f64::from(k + 1)]);
+    let storey = |k: u32| prism(n, 1.0, 0.5 * f64::from(k), [f64::from(k), f64::from(k + 1)]);
     let surfaces = (0..storeys).map(storey).collect();
     let (n, k) = (n as usize, storeys as usize);
     let between = k - 1;

@@ -2,10 +2,11 @@
 
 mod common;
 
-use common::{Random, all_counts, arrange_checked, arranged, counts, cuboid, flipped, mapped, surface};
+use common::{
+    Random, all_counts, arrange_checked, arranged, counts, cuboid, flipped, mapped, prism, surface,
+};
 use lar_arrangement::ArrangementError;
 use lar_core::{Points, Surface};
-use std::f64::consts::TAU;
 
 #[track_caller]
 fn refused(input: &Surface) -> ArrangementError {
@@ -57,31 +58,18 @@ fn faces_without_an_inside_are_left_out() {
     assert_eq!((counts(&a), a.stats().degenerate_faces), ([8, 12, 6, 2], 4));
 }
 
-/// An upright prism over a regular polygon of `n` corners.
-fn prism(n: u32, radius: f64, z: [f64; 2]) -> Surface {
-    let corner = |i: u32, z: f64| {
-        let angle = TAU * f64::from(i) / f64::from(n);
-        [radius * angle.cos(), radius * angle.sin(), z]
-    };
-    let points: Vec<[f64; 3]> = z.iter().flat_map(|&z| (0..n).map(move |i| corner(i, z))).collect();
-    let mut out = surface(&points, &[]);
-    let (top, bottom): (Vec<u32>, Vec<u32>) = ((n..2 * n).collect(), (0..n).rev().collect());
-    out.push_face([&bottom[..]], 1);
-    out.push_face([&top[..]], 1);
-    for i in 0..n {
-        out.push_face([&[i, (i + 1) % n, n + (i + 1) % n, n + i][..]], 1);
-    }
-    out
-}
-
 /// Polygons of more than 64 corners are cut into triangles and put together again.
 #[test]
 fn polygons_of_many_corners() {
     for n in [3, 64, 65, 200] {
         let size = n as usize;
-        assert_eq!(counts(&arranged(&[prism(n, 1.0, [0.0, 1.0])])), [2 * size, 3 * size, size + 2, 2], "{n}");
+        assert_eq!(
+            counts(&arranged(&[prism(n, 1.0, 0.0, [0.0, 1.0])])),
+            [2 * size, 3 * size, size + 2, 2],
+            "{n}"
+        );
         // A smaller one through it from below leaves a round hole in the lower face.
-        let a = arranged(&[prism(n, 1.0, [0.0, 1.0]), prism(n, 0.5, [-1.0, 0.5])]);
+        let a = arranged(&[prism(n, 1.0, 0.0, [0.0, 1.0]), prism(n, 0.5, 0.0, [-1.0, 0.5])]);
         assert_eq!(counts(&a), [5 * size, 8 * size, 3 * size + 5, 4], "{n}");
     }
 }

@@ -1,10 +1,11 @@
 //! Clusters: polygons that meet and lie nearly in one plane.
 
-use super::Input;
 use super::fit::Fit;
 use super::scan::Scan;
+use super::{Input, Tolerance};
 use crate::kernel::{Geometry, Plane};
 use crate::soup::Soup;
+use crate::split::offsets;
 use crate::union_find::UnionFind;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
@@ -34,33 +35,12 @@ impl Cluster {
     }
 }
 
-/// The facets of each polygon: they follow each other.
-struct Facets {
-    first: Vec<u32>,
-}
-
-impl Facets {
-    fn new(soup: &Soup) -> Self {
-        let mut first = vec![0; soup.polygon_flat.len() + 1];
-        for &polygon in &soup.facet_polygon {
-            first[polygon as usize + 1] += 1;
-        }
-        for polygon in 0..soup.polygon_flat.len() {
-            first[polygon + 1] += first[polygon];
-        }
-        Self { first }
-    }
-
-    fn of(&self, polygon: u32) -> Range<u32> {
-        self.first[polygon as usize]..self.first[polygon as usize + 1]
-    }
-}
-
 /// What the search for clusters reads.
 struct Search<'a> {
     input: &'a Input<'a>,
     scan: &'a Scan,
-    facets: Facets,
+    /// The facets of polygon p, which follow each other, are `first_facet[p]..first_facet[p + 1]`.
+    first_facet: Vec<u32>,
     neighbours: Neighbours,
 }
 
@@ -71,8 +51,9 @@ pub(super) fn clusters(input: &Input, scan: &Scan) -> Vec<Cluster> {
     adjacent.iter_mut().for_each(|pair| pair.sort_unstable());
     adjacent.sort_unstable();
     adjacent.dedup();
-    let neighbours = Neighbours::new(input.soup.polygon_flat.len(), &adjacent);
-    let search = Search { input, scan, facets: Facets::new(input.soup), neighbours };
+    let n_polygons = input.soup.polygon_flat.len();
+    let first_facet = offsets(n_polygons, input.soup.facet_polygon.iter().copied());
+    let search = Search { input, scan, first_facet, neighbours: Neighbours::new(n_polygons, &adjacent) };
     let mut clusters = search.clusters(&adjacent);
     if !clusters.is_empty() {
         search.add_touching_corners(&mut clusters);
@@ -84,6 +65,10 @@ pub(super) fn clusters(input: &Input, scan: &Scan) -> Vec<Cluster> {
 impl Search<'_> {
     fn geometry(&self) -> &Geometry {
         &self.input.soup.geometry
+    }
+
+    fn facets(&self, polygon: u32) -> Range<u32> {
+        self.first_facet[polygon as usize]..self.first_facet[polygon as usize + 1]
     }
 
     fn clusters(&self, adjacent: &[[u32; 2]]) -> Vec<Cluster> {
@@ -118,7 +103,7 @@ impl Search<'_> {
         }
         let corners = self.corners(&polygons);
         let Some(fit) = Fit::new(self.geometry(), &corners) else { return Ok(None) };
-        let tolerance = self.tolerance(&polygons);
+        let tolerance = self.tolerance(&corners);
         if fit.deviation > tolerance {
             return Err(polygons);
         }
@@ -135,29 +120,28 @@ impl Search<'_> {
     }
 
     fn is_triangle(&self, polygon: u32) -> bool {
-        let facets = self.facets.of(polygon);
+        let facets = self.facets(polygon);
         facets.len() == 1 && self.input.soup.facet_edges[facets.start as usize].len() == 3
     }
 
     /// The corners of some polygons, ascending.
     fn corners(&self, polygons: &[u32]) -> Vec<u32> {
-        let facets = polygons.iter().flat_map(|&p| self.facets.of(p));
+        let facets = polygons.iter().flat_map(|&p| self.facets(p));
         let mut corners: Vec<u32> = facets.flat_map(|f| self.input.corners(f)).collect();
         corners.sort_unstable();
         corners.dedup();
         corners
     }
 
-    fn tolerance(&self, polygons: &[u32]) -> f64 {
-        let of = |&p: &u32| self.input.tolerance(self.facets.of(p).start).planes();
-        polygons.iter().map(of).fold(0.0, f64::max)
+    fn tolerance(&self, corners: &[u32]) -> f64 {
+        Tolerance::of(&self.input.soup.tolerances, corners.iter().copied()).planes()
     }
 
     /// Clusters grown from the widest polygons of a component that is not in one plane.
     fn split(&self, mut component: Vec<u32>, out: &mut Vec<Cluster>) {
         let width = |polygon: u32| {
             let of = |f: u32| self.scan.shapes[f as usize].width;
-            self.facets.of(polygon).map(of).fold(0.0, f64::max)
+            self.facets(polygon).map(of).fold(0.0, f64::max)
         };
         let mut free: FxHashMap<u32, f64> = component.iter().map(|&p| (p, width(p))).collect();
         component.sort_by(|a, b| free[b].total_cmp(&free[a]).then(a.cmp(b)));
@@ -180,16 +164,15 @@ impl Search<'_> {
         let mut members = vec![seed];
         let mut seen: FxHashSet<u32> = members.iter().copied().collect();
         let Some(mut fit) = Fit::new(self.geometry(), &self.corners(&members)) else { return members };
-        let lies_near = |fit: &Fit, polygon: u32, tolerance: f64| {
-            self.corners(&[polygon]).iter().all(|&p| fit.distance(self.geometry(), p) <= tolerance)
+        let lies_near = |fit: &Fit, polygon: u32| {
+            let corners = self.corners(&[polygon]);
+            let tolerance = self.tolerance(&corners);
+            corners.iter().all(|&p| fit.distance(self.geometry(), p) <= tolerance)
         };
         let (mut n_fitted, mut next) = (1, 0);
         while next < members.len() {
             for &polygon in self.neighbours.of(members[next]) {
-                if free.contains_key(&polygon)
-                    && seen.insert(polygon)
-                    && lies_near(&fit, polygon, self.tolerance(&[polygon]))
-                {
+                if free.contains_key(&polygon) && seen.insert(polygon) && lies_near(&fit, polygon) {
                     members.push(polygon);
                 }
             }
@@ -199,8 +182,7 @@ impl Search<'_> {
                 fit = Fit::new(self.geometry(), &self.corners(&members)).unwrap_or(fit);
             }
         }
-        let tolerance = self.tolerance(&members);
-        members.retain(|&polygon| polygon == seed || lies_near(&fit, polygon, tolerance));
+        members.retain(|&polygon| polygon == seed || lies_near(&fit, polygon));
         members.sort_unstable();
         members
     }
@@ -269,20 +251,12 @@ struct Neighbours {
 
 impl Neighbours {
     fn new(n: usize, pairs: &[[u32; 2]]) -> Self {
-        let mut offsets = vec![0; n + 1];
-        pairs.iter().flatten().for_each(|&i| offsets[i as usize + 1] += 1);
-        for i in 0..n {
-            offsets[i + 1] += offsets[i];
+        let mut directed: Vec<[u32; 2]> = pairs.iter().flat_map(|&[a, b]| [[a, b], [b, a]]).collect();
+        directed.sort_unstable();
+        Self {
+            offsets: offsets(n, directed.iter().map(|pair| pair[0])),
+            list: directed.iter().map(|pair| pair[1]).collect(),
         }
-        let mut fill = offsets.clone();
-        let mut list = vec![0; 2 * pairs.len()];
-        for &[a, b] in pairs {
-            for (from, to) in [(a, b), (b, a)] {
-                list[fill[from as usize] as usize] = to;
-                fill[from as usize] += 1;
-            }
-        }
-        Self { offsets, list }
     }
 
     fn of(&self, polygon: u32) -> &[u32] {

@@ -1,7 +1,7 @@
 //! The plane of some points on the grid, and one with small coefficients near it.
 
 use super::vector::{cross, distance, dot, minus};
-use crate::kernel::{Geometry, Plane};
+use crate::kernel::{Geometry, Plane, dominant_axis};
 
 /// Coefficients of a canonical plane stay within ±2^40.
 const COEFFICIENT: i128 = 1 << 40;
@@ -31,7 +31,7 @@ impl Fit {
             dot(n, n)
         })?;
         let plane = Plane::through(at(a), at(b), at(c));
-        let length = plane.n.map(|n| (n as f64).powi(2)).iter().sum::<f64>().sqrt();
+        let length = plane.length();
         if length == 0.0 {
             return None;
         }
@@ -47,7 +47,7 @@ impl Fit {
     /// its largest component, the others zero where the tolerance allows; through `key`, where that lies near enough.
     pub(super) fn canonical(&self, geometry: &Geometry, corners: &[u32], tolerance: f64, key: u32) -> Plane {
         let n = self.plane.n;
-        let axis = (1..3).fold(0, |best, k| if n[k].abs() > n[best].abs() { k } else { best });
+        let axis = dominant_axis(n);
         if self.deviation == 0.0 {
             let divisor = n.iter().fold(0, |g, &x| gcd(g, x.unsigned_abs())) as i128;
             if n[axis].abs() / divisor <= COEFFICIENT {
@@ -59,16 +59,15 @@ impl Fit {
             if small[(axis + 1) % 3].abs() < small[(axis + 2) % 3].abs() { axis + 1 } else { axis + 2 } % 3;
         let along_axis = std::array::from_fn(|k| i128::from(k == axis));
         let without_minor = std::array::from_fn(|k| if k == minor { 0 } else { small[k] });
-        let near = |n: [i128; 3], within: f64| {
-            let length = n.iter().map(|&x| (x as f64).powi(2)).sum::<f64>().sqrt();
+        let near = |n: [i128; 3]| {
             let through_key = Plane { n, d: Plane { n, d: 0 }.side(geometry.nearest_grid_point(key)) };
             [through_key, centred(geometry, corners, n)]
                 .into_iter()
-                .find(|plane| spread(geometry, corners, plane) as f64 <= within * length)
+                .find(|plane| spread(geometry, corners, plane) as f64 <= tolerance * plane.length())
         };
-        near(along_axis, tolerance)
-            .or_else(|| near(without_minor, tolerance))
-            .or_else(|| near(small, tolerance))
+        near(along_axis)
+            .or_else(|| near(without_minor))
+            .or_else(|| near(small))
             .unwrap_or_else(|| centred(geometry, corners, small))
     }
 }

@@ -3,7 +3,7 @@
 use super::cluster::Cluster;
 use super::vector::distance;
 use super::{Report, carried, renumbered};
-use crate::kernel::{CanonicalPoints, Geometry, Plane, RationalPoint, SharedPlane, Sign};
+use crate::kernel::{CanonicalPoints, Geometry, Plane, RationalPoint, SharedPlane, Sign, dominant_axis};
 use crate::soup::{Placed, PointIds, Soup};
 use rustc_hash::FxHashMap;
 
@@ -82,15 +82,15 @@ fn placed(at: [i64; 3], candidates: &[(u32, bool)], clusters: &[Cluster]) -> (Ra
 fn nearest_on(at: [i64; 3], planes: &[&Plane]) -> Option<RationalPoint> {
     let coordinate =
         |k: usize| Plane { n: std::array::from_fn(|j| i128::from(j == k)), d: i128::from(at[k]) };
-    let longest = |v: [i128; 3]| (1..3).fold(0, |best, k| if v[k].abs() > v[best].abs() { k } else { best });
+
     let three = match *planes {
         [p] => {
-            let axis = longest(p.n);
+            let axis = dominant_axis(p.n);
             [*p, coordinate((axis + 1) % 3), coordinate((axis + 2) % 3)]
         }
         [p, q] => {
             let minor = |u: usize, v: usize| p.n[u] * q.n[v] - p.n[v] * q.n[u];
-            [*p, *q, coordinate(longest([minor(1, 2), minor(2, 0), minor(0, 1)]))]
+            [*p, *q, coordinate(dominant_axis([minor(1, 2), minor(2, 0), minor(0, 1)]))]
         }
         [p, q, r] => [*p, *q, *r],
         _ => return None,

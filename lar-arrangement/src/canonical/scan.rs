@@ -1,7 +1,7 @@
 //! Which points are nearly one, and which pairs of facets lie nearly in one plane.
 
 use super::Input;
-use super::vector::{cross, distance, dot, minus};
+use super::vector::{distance, dot, minus};
 use crate::boxes::{Aabb, BoxTree};
 use crate::parallel;
 
@@ -43,8 +43,7 @@ struct Outline {
 
 impl Scan {
     pub(crate) fn new(input: &Input) -> Self {
-        let n_facets = input.soup.n_facets() as u32;
-        let shapes: Vec<Shape> = (0..n_facets).map(|f| Shape::of(input, f)).collect();
+        let shapes = parallel::map(input.soup.n_facets(), |f| Shape::of(input, f as u32));
         let outlines: Vec<Outline> = shapes.iter().map(Outline::of).collect();
         let (n_chunks, range) = parallel::chunks(input.pairs.len(), PAIRS_A_CHUNK);
         let coplanar = parallel::map(n_chunks, |chunk| {
@@ -88,7 +87,7 @@ fn are_nearly_coplanar(input: &Input, shapes: &[Shape], [f, g]: [u32; 2]) -> boo
         return false;
     }
     let (wide, narrow, facet) = if a.width >= b.width { (a, b, g) } else { (b, a, f) };
-    wide.nearly_holds(narrow, || input.corners(facet).map(|p| input.soup.geometry.position(p)))
+    wide.nearly_holds(narrow, input.corners(facet).map(|p| input.soup.geometry.position(p)))
 }
 
 impl Outline {
@@ -108,7 +107,8 @@ impl Outline {
         let sine = normal.iter().map(|x| x * x).sum::<f32>().sqrt();
         let (wide, narrow) = (self.width.max(other.width), self.width.min(other.width));
         let tolerance = self.planes.max(other.planes);
-        // As in `nearly_holds`. The boxes are within the reach of the origins and, up to the tolerance, meet; rounding to
+        // Two corners of a facet of width w at an angle to the plane differ in height by w · sine, and `nearly_holds` allows
+        // for twice its limit. The boxes are within the reach of the origins and, up to the tolerance, meet; rounding to
         // 32 bits changes a sine by less than 2^-20.
         let apart = 2.0 * (self.reach + other.reach + 2.0 * tolerance) + self.reach.max(other.reach);
         (sine - 1e-6) * narrow > 2.0 * tolerance * (1.0 + 2.0 * apart / wide)
@@ -136,17 +136,10 @@ impl Shape {
     }
 
     /// Whether the corners of another facet lie near this one's plane, the tolerance growing with the distance.
-    fn nearly_holds<I: Iterator<Item = [f64; 3]>>(&self, other: &Self, corners: impl Fn() -> I) -> bool {
+    fn nearly_holds(&self, other: &Self, mut corners: impl Iterator<Item = [f64; 3]>) -> bool {
         let tolerance = self.planes.max(other.planes);
         let limit = |distance: f64| tolerance * (1.0 + 2.0 * distance / self.width);
-        // Two corners of a facet of width w at an angle to the plane differ in height by w · sine.
-        let normal = cross(self.unit, other.unit);
-        let [x, y, z] = minus(self.origin, other.origin).map(f64::abs);
-        let farthest = limit(x + y + z + other.reach);
-        if dot(normal, normal) * other.width.powi(2) > 4.0 * farthest.powi(2) {
-            return false;
-        }
-        corners().all(|p| {
+        corners.all(|p| {
             let d = minus(p, self.origin);
             dot(self.unit, d).abs() <= limit(dot(d, d).sqrt())
         })

@@ -40,7 +40,7 @@ pub(crate) use geometry::{
     CanonicalPoints, Geometry, RationalPoint, SharedPlane, Support, Vertex, VertexDef,
 };
 pub(crate) use int::Int;
-pub(crate) use point::{Plane, rounded_quotient};
+pub(crate) use point::{Plane, dominant_axis, rounded_quotient};
 pub(crate) use predicates::{Along, Direction, Midpoint};
 
 /// The sign of an exact quantity.

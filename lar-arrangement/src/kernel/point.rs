@@ -26,6 +26,11 @@ fn dot(n: [i128; 3], p: [i64; 3]) -> i128 {
     n[0] * i128::from(p[0]) + n[1] * i128::from(p[1]) + n[2] * i128::from(p[2])
 }
 
+/// The axis of the component that is largest, the first of equal ones.
+pub(crate) fn dominant_axis(n: [i128; 3]) -> usize {
+    (1..3).fold(0, |best, k| if n[k].abs() > n[best].abs() { k } else { best })
+}
+
 impl Plane {
     /// The plane through three points, its normal pointing to where they turn counter-clockwise.
     pub(crate) fn through(a: [i64; 3], b: [i64; 3], c: [i64; 3]) -> Self {
@@ -42,6 +47,11 @@ impl Plane {
         n[u] = -e[v];
         n[v] = e[u];
         Self { n, d: dot(n, a) }
+    }
+
+    /// The length of the normal, rounded.
+    pub(crate) fn length(&self) -> f64 {
+        self.n.map(|x| (x as f64).powi(2)).iter().sum::<f64>().sqrt()
     }
 
     /// n · p − d.

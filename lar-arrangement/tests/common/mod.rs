@@ -3,6 +3,7 @@
 
 use lar_arrangement::{Arrangement, ArrangementError, Arranger, Checks};
 use lar_core::{Affine, Points, Struct, Surface, cuboid_grid, r, rotation, t};
+use std::f64::consts::TAU;
 
 /// SplitMix64 (Steele, Lea, Flood 2014).
 pub(crate) struct Random(pub(crate) u64);
@@ -70,6 +71,23 @@ pub(crate) fn cuboid(lo: [f64; 3], hi: [f64; 3]) -> Surface {
     let faces: [&[u32]; 6] =
         [&[0, 4, 6, 2], &[1, 3, 7, 5], &[0, 1, 5, 4], &[2, 6, 7, 3], &[0, 2, 3, 1], &[4, 5, 7, 6]];
     surface(&(0..8).map(corner).collect::<Vec<_>>(), &faces)
+}
+
+/// An upright prism over a regular polygon of `n` corners, turned by a part of a corner.
+pub(crate) fn prism(n: u32, radius: f64, turn: f64, z: [f64; 2]) -> Surface {
+    let corner = |i: u32, z: f64| {
+        let angle = TAU * (f64::from(i) + turn) / f64::from(n);
+        [radius * angle.cos(), radius * angle.sin(), z]
+    };
+    let points: Vec<[f64; 3]> = z.iter().flat_map(|&z| (0..n).map(move |i| corner(i, z))).collect();
+    let mut out = surface(&points, &[]);
+    let (top, bottom): (Vec<u32>, Vec<u32>) = ((n..2 * n).collect(), (0..n).rev().collect());
+    out.push_face([&bottom[..]], 1);
+    out.push_face([&top[..]], 1);
+    for i in 0..n {
+        out.push_face([&[i, (i + 1) % n, n + (i + 1) % n, n + i][..]], 1);
+    }
+    out
 }
 
 /// All stages checked.

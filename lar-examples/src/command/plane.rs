@@ -143,6 +143,11 @@ struct Seconds {
     stages: Stages,
 }
 
+/// What a run found, for files and for readers.
+trait Report: Serialize {
+    fn print(&self, out: &mut dyn Write) -> Result<(), CommandError>;
+}
+
 /// The drawings, and the times so far.
 struct Job {
     shapes: Shapes,
@@ -194,14 +199,7 @@ impl Plane {
         if let Some(path) = &self.complex {
             arrangement.complex().write_json(path)?;
         }
-        if let Some(sink) = sink {
-            sink.write(&report, out)?;
-        }
-        if matches!(sink, Some(Sink::Standard)) {
-            return Ok(());
-        }
-        report.print(out)?;
-        self.print_picture(drawn_by, out)
+        self.deliver(&report, drawn_by, sink, out)
     }
 
     fn partition_report(&self, job: &Job, a: &PlanarArrangement, arrange: Duration) -> PartitionReport {
@@ -246,14 +244,7 @@ impl Plane {
         let report = self.boolean_report(text, job, &boolean, &polygons, before.elapsed());
         let picture = || Picture::polygons(&polygons, self.explode);
         let drawn_by = file.map_or(Ok(None), |file| file.write(&picture()))?;
-        if let Some(sink) = sink {
-            sink.write(&report, out)?;
-        }
-        if matches!(sink, Some(Sink::Standard)) {
-            return Ok(());
-        }
-        report.print(out)?;
-        self.print_picture(drawn_by, out)
+        self.deliver(&report, drawn_by, sink, out)
     }
 
     fn boolean_report(
@@ -286,6 +277,24 @@ impl Plane {
         report
     }
 
+    /// Writes the report where it was asked for, and prints it unless the standard output has it already.
+    fn deliver(
+        &self,
+        report: &impl Report,
+        drawn_by: Option<String>,
+        sink: Option<&Sink>,
+        out: &mut dyn Write,
+    ) -> Result<(), CommandError> {
+        if let Some(sink) = sink {
+            sink.write(report, out)?;
+        }
+        if matches!(sink, Some(Sink::Standard)) {
+            return Ok(());
+        }
+        report.print(out)?;
+        self.print_picture(drawn_by, out)
+    }
+
     fn print_picture(&self, drawn_by: Option<String>, out: &mut dyn Write) -> Result<(), CommandError> {
         if let (Some(path), Some(adapter)) = (&self.output, drawn_by) {
             let Size { width, height } = self.size;
@@ -307,7 +316,7 @@ impl Job {
     }
 }
 
-impl PartitionReport {
+impl Report for PartitionReport {
     fn print(&self, out: &mut dyn Write) -> Result<(), CommandError> {
         let counts = [
             counted(self.vertices, "vertex"),
@@ -331,7 +340,7 @@ impl PartitionReport {
     }
 }
 
-impl BooleanReport {
+impl Report for BooleanReport {
     fn print(&self, out: &mut dyn Write) -> Result<(), CommandError> {
         let counts = [
             counted(self.polygons, "polygon"),
