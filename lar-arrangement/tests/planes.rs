@@ -144,3 +144,22 @@ fn volumes_survive() {
         common::assert_close(&sorted_volumes(&turned), &expected, 1e-10, name);
     }
 }
+
+/// Nothing moves farther than eight errors of a coordinate; numbers of five digits are taken as they are.
+#[test]
+fn moves_are_bounded() {
+    let random = &mut Random(11);
+    for (digits, error) in [(5, 0.0), (6, 5e-6), (9, 5e-9)] {
+        for (name, scene, _) in rows() {
+            let input = moved(&surfaces(&scene), &random_rotation(random));
+            let precision = Precision::Decimal { significant: digits as u32, last_place: -12 };
+            let printed =
+                rounded(&input, precision, |x| format!("{x:.*e}", digits - 1).parse().expect("a number"));
+            let a = Arranger::new().arrange(&printed).expect("a valid scene");
+            // Coordinates are below 10; half a grid step is the least error.
+            let bound = 8.0 * f64::max(error, a.stats().grid_step / 2.0);
+            let farthest = a.stats().farthest_move;
+            assert!(farthest <= bound, "{name}, {digits} digits: moved by {farthest:e}, not {bound:e}");
+        }
+    }
+}
