@@ -1,6 +1,7 @@
 //! Broad phase: a tree of boxes over points in Z-order, eight children a node, built in bulk.
 
 use crate::parallel;
+use crate::progress::{Cancelled, Course};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::ops::Range;
@@ -231,16 +232,16 @@ impl<const D: usize> BoxTree<D> {
     }
 
     /// All pairs of items whose boxes meet, each once, the smaller first. O(n log n + pairs).
-    pub(crate) fn pairs(&self) -> Vec<[u32; 2]> {
+    pub(crate) fn pairs(&self, course: &Course) -> Result<Vec<[u32; 2]>, Cancelled> {
         let (n_chunks, range) = parallel::chunks(self.n_blocks(), 64);
-        parallel::map(n_chunks, |chunk| {
+        let parts = course.map(n_chunks, |chunk| {
             let mut found = Vec::new();
-            for block in range(chunk) {
+            for block in range(chunk).take_while(|_| !course.is_cancelled()) {
                 self.pairs_of_block(block, |i, j| found.push([i.min(j), i.max(j)]));
             }
             found
-        })
-        .concat()
+        })?;
+        Ok(parts.concat())
     }
 }
 
@@ -256,6 +257,7 @@ fn spread(x: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::progress::Control;
     use proptest::prelude::*;
 
     proptest! {
@@ -277,7 +279,7 @@ mod tests {
             }
             expected.sort_unstable();
             let tree = BoxTree::new(&boxes);
-            let mut found = tree.pairs();
+            let mut found = tree.pairs(&Course::new(Control::default(), &[])).unwrap();
             found.sort_unstable();
             prop_assert_eq!(found, expected);
             if let Some(target) = boxes.first() {

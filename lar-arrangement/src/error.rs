@@ -1,5 +1,6 @@
 //! What an arrangement or a Boolean can refuse, and why.
 
+use crate::progress::Cancelled;
 use lar_core::{FaceId, VertexId};
 
 /// Why an operation was refused.
@@ -60,6 +61,9 @@ pub enum ArrangementError {
         /// What the system said.
         reason: String,
     },
+    /// It was asked to stop ([`Cancel`](crate::Cancel)).
+    #[error("cancelled")]
+    Cancelled,
     /// A post-condition that does not hold: a bug of this crate.
     #[error("internal error after stage {stage}: {what}")]
     PostCondition {
@@ -68,4 +72,10 @@ pub enum ArrangementError {
         /// What does not hold.
         what: String,
     },
+}
+
+impl From<Cancelled> for ArrangementError {
+    fn from(_: Cancelled) -> Self {
+        Self::Cancelled
+    }
 }

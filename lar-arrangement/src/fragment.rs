@@ -8,6 +8,7 @@ use crate::boxes::{Aabb, BoxTree};
 use crate::crossing::segment_direction;
 use crate::interner::Interner;
 use crate::kernel::{Along, Direction, Geometry, Sign, Support, Vertex};
+use crate::progress::{Cancelled, Course};
 use crate::soup::Soup;
 use crate::split::Cuts;
 use crate::subdivision::{Embedding, Subdivision};
@@ -67,15 +68,19 @@ pub(crate) struct Fragmenter<'a> {
     pub cuts: &'a Cuts,
     /// Vertices known to all facets.
     pub vertices: &'a [Vertex],
+    /// Without reports: the work in a group is part of a chunk.
+    pub course: Course<'a>,
 }
 
 impl Fragmenter<'_> {
     /// Cuts one group of facets that lie in one plane.
-    pub(crate) fn fragment(&self, group: &[u32], out: &mut Fragments) {
+    pub(crate) fn fragment(&self, group: &[u32], out: &mut Fragments) -> Result<(), Cancelled> {
+        self.course.go_on()?;
         match group {
             &[facet] if self.cuts.segments(facet).is_empty() => self.whole(facet, out),
-            _ => Local::new(self, group).fragment(out),
+            _ => Local::new(self, group).fragment(out)?,
         }
+        Ok(())
     }
 
     /// A facet with nothing inside: one face, its edges possibly split.
@@ -203,15 +208,16 @@ impl<'a> Local<'a> {
         self.known.binary_search(&v).expect("all vertices of the group were collected") as u32
     }
 
-    fn fragment(mut self, out: &mut Fragments) {
+    fn fragment(mut self, out: &mut Fragments) -> Result<(), Cancelled> {
         self.push_boundary();
         let mut lines = self.cut_lines();
-        self.cross(&mut lines);
+        self.cross(&mut lines)?;
         self.push_cuts(lines);
         let edges: Vec<[u32; 2]> = self.pieces.iter().map(|p| p.ends).collect();
         let subdivision = Subdivision::new(self.interner.vertices.len(), &edges, &self);
         let windings = self.windings(&subdivision);
         self.emit(&subdivision, &windings, out);
+        Ok(())
     }
 
     /// The boundary pieces of all members, each once, with who uses it.
@@ -285,20 +291,22 @@ impl<'a> Local<'a> {
 
     /// Splits the lines where they meet. Few lines are tested pair by pair (at most 120 pairs), more through a
     /// tree of boxes.
-    fn cross(&mut self, lines: &mut [CutLine]) {
+    fn cross(&mut self, lines: &mut [CutLine]) -> Result<(), Cancelled> {
         if lines.len() <= 16 {
             for j in 1..lines.len() {
                 for i in 0..j {
                     self.cross_pair(lines, i, j);
                 }
             }
-            return;
+            return Ok(());
         }
         let boxes: Vec<Aabb> =
             lines.iter().map(|l| Aabb::around(l.ends.map(|v| self.vertex(v).at))).collect();
-        for [i, j] in BoxTree::new(&boxes).pairs() {
+        for [i, j] in BoxTree::new(&boxes).pairs(&self.from.course)? {
+            self.from.course.go_on()?;
             self.cross_pair(lines, i as usize, j as usize);
         }
+        Ok(())
     }
 
     fn cross_pair(&mut self, lines: &mut [CutLine], i: usize, j: usize) {

@@ -11,6 +11,7 @@
 
 use crate::boxes::{Aabb, BoxTree};
 use crate::kernel::{Geometry, Midpoint, Sign};
+use crate::progress::{Cancelled, Course};
 use crate::skeleton::Skeleton;
 use crate::union_find::UnionFind;
 use crate::wrap;
@@ -33,13 +34,14 @@ const FEW_RAYS: usize = 4;
 
 impl Nesting<'_> {
     /// Cell of each shell; cell 0 is the exterior. Also the number of cells.
-    pub(crate) fn cells(&self) -> (Vec<u32>, u32) {
+    pub(crate) fn cells(&self, course: &Course) -> Result<(Vec<u32>, u32), Cancelled> {
         let n = self.n_shells as usize;
         // Element n stands for the exterior.
         let mut sets = UnionFind::new(n + 1);
         let edges = self.first_edges();
         let tree = (edges.len() > FEW_RAYS).then(|| BoxTree::new(&self.boxes()));
         for edge in edges {
+            course.go_on()?;
             let mut here = self.shell_of_side[self.sector(edge) as usize];
             for face in self.hits(edge, tree.as_ref()) {
                 sets.union(here, self.shell(face, false));
@@ -54,7 +56,7 @@ impl Nesting<'_> {
             Ordering::Equal => 0,
             Ordering::Greater => label,
         };
-        (labels[..n].iter().map(|&l| cell(l)).collect(), n_cells)
+        Ok((labels[..n].iter().map(|&l| cell(l)).collect(), n_cells))
     }
 
     fn boxes(&self) -> Vec<Aabb> {

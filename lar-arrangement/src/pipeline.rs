@@ -13,10 +13,11 @@ use crate::interner::Interner;
 use crate::merge::Merged;
 use crate::nest::Nesting;
 use crate::parallel;
+use crate::progress::{Cancel, Cancelled, Control, Course, Plan, Progress};
 use crate::skeleton::Skeleton;
 use crate::soup::{Parent, Placed, Soup};
 use crate::split::Cuts;
-use crate::stats::{Stats, Watch};
+use crate::stats::Stats;
 use crate::union_find::UnionFind;
 use crate::winding::{Jumps, Windings};
 use crate::wrap;
@@ -27,6 +28,20 @@ use std::num::NonZeroUsize;
 const PAIRS_A_CHUNK: usize = 2048;
 /// Groups of facets a chunk of work.
 const GROUPS_A_CHUNK: usize = 256;
+
+/// The stages, and their usual shares in the time.
+const PLAN: &Plan = &[
+    ("soup", 8),
+    ("pairs", 16),
+    ("planes", 24),
+    ("contacts", 18),
+    ("fragmentation", 14),
+    ("congruence", 6),
+    ("gift wrapping", 4),
+    ("nesting", 2),
+    ("membership", 4),
+    ("complex", 4),
+];
 
 /// Whether the post-conditions of every stage are tested as it ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -68,10 +83,11 @@ const SHORT: u32 = 6;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Arranger {
+pub struct Arranger<'a> {
     threads: Option<NonZeroUsize>,
     checks: Checks,
     planes: Planes,
+    control: Control<'a>,
 }
 
 /// The arrangement of some surfaces with the default options.
@@ -87,7 +103,7 @@ pub fn arrange(surfaces: &[Surface]) -> Result<Arrangement, ArrangementError> {
     Arranger::new().arrange(surfaces)
 }
 
-impl Arranger {
+impl<'a> Arranger<'a> {
     /// The default options: all processors, no checks.
     #[must_use]
     pub fn new() -> Self {
@@ -130,38 +146,64 @@ impl Arranger {
         self
     }
 
+    /// Calls `report` as the work goes on: from the threads at work, but never from two at once. The result does not
+    /// depend on it.
+    ///
+    /// ```
+    /// use lar_arrangement::{Arranger, Progress};
+    /// let cube = lar_core::cuboid_grid(&[1, 1, 1]).to_surface()?;
+    /// let last = std::sync::Mutex::new(0.0);
+    /// let report = |progress: Progress| *last.lock().unwrap() = progress.fraction;
+    /// Arranger::new().progress(&report).arrange(&[cube])?;
+    /// assert_eq!(*last.lock().unwrap(), 1.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn progress(mut self, report: &'a (dyn Fn(Progress) + Sync)) -> Self {
+        self.control.report = Some(report);
+        self
+    }
+
+    /// Gives up with [`ArrangementError::Cancelled`] soon after `cancel` is asked for: within a chunk of work.
+    #[must_use]
+    pub fn cancel(mut self, cancel: &'a Cancel) -> Self {
+        self.control.cancel = Some(cancel);
+        self
+    }
+
     /// Computes the arrangement. O((n + k + m) log) time and O(n + k + m) memory for n facets, k pairs of facets
     /// that meet and m cells out.
     ///
     /// # Errors
     /// Points that are not three-dimensional or not finite, faces that name vertices that do not exist; with
-    /// checks, a post-condition that does not hold; when the threads cannot be started.
+    /// checks, a post-condition that does not hold; when the threads cannot be started or the work was cancelled.
     pub fn arrange(&self, surfaces: &[Surface]) -> Result<Arrangement, ArrangementError> {
         parallel::with_threads(self.threads, || self.run(surfaces))?
     }
 
     fn run(&self, surfaces: &[Surface]) -> Result<Arrangement, ArrangementError> {
         let mut stats = Stats::default();
-        let mut watch = Watch::start();
-        let (mut soup, pairs) = self.soup_and_pairs(surfaces, &mut stats, &mut watch)?;
-        let mut contacts = contacts(&soup, &pairs);
+        let course = Course::new(self.control, PLAN);
+        let (mut soup, pairs) = self.soup_and_pairs(surfaces, &mut stats, &course)?;
+        course.begin("contacts", &mut stats)?;
+        let mut contacts = contacts(&soup, &pairs, &course)?;
         stats.pairs_tested = pairs.len() as u64;
         stats.pairs_crossing = contacts.crossing_pairs;
-        let groups = groups(&soup, &mut contacts);
+        let groups = groups(&soup, &mut contacts, &course)?;
         let mut interner = Interner::new(&soup.geometry, std::mem::take(&mut soup.point_ids));
         let cuts = Cuts::new(&soup, contacts, &mut interner);
-        watch.lap(&mut stats, "contacts");
         self.check(|| check::cuts(&soup, &cuts, &interner.vertices))?;
         stats.coplanar_groups = groups.iter().filter(|g| g.len() > 1).count() as u64;
-        let fragments = fragments(&soup, &cuts, &interner, &groups);
-        watch.lap(&mut stats, "fragmentation");
+        course.begin("fragmentation", &mut stats)?;
+        let fragments = fragments(&soup, &cuts, &interner, &groups, &course)?;
+        course.begin("congruence", &mut stats)?;
         let skeleton = Skeleton::new(fragments, interner, &soup, &cuts);
-        watch.lap(&mut stats, "congruence");
         self.check(|| check::skeleton(&skeleton, &soup.geometry))?;
+        course.begin("gift wrapping", &mut stats)?;
         let rings = wrap::rings(&skeleton, &soup.geometry);
         let (shell_of_side, n_shells) = wrap::shells(&rings, skeleton.n_faces());
-        watch.lap(&mut stats, "gift wrapping");
         self.check(|| check::shells(&skeleton, &shell_of_side))?;
+        course.begin("nesting", &mut stats)?;
         let (component_of_face, n_components) = wrap::components(&rings, skeleton.n_faces());
         let nesting = Nesting {
             skeleton: &skeleton,
@@ -172,11 +214,11 @@ impl Arranger {
             component_of_face: &component_of_face,
             n_components,
         };
-        let (cell_of_shell, n_cells) = nesting.cells();
-        watch.lap(&mut stats, "nesting");
+        let (cell_of_shell, n_cells) = nesting.cells(&course)?;
+        course.begin("membership", &mut stats)?;
         let dissolved = dissolve::dissolve(&skeleton, &rings, &soup);
         let shells = Shells { of_side: &shell_of_side, n: n_shells, cell_of: &cell_of_shell, n_cells };
-        let out = assemble(surfaces, soup, &skeleton, &rings, dissolved, &shells, (stats, watch));
+        let out = assemble(surfaces, soup, &skeleton, &rings, dissolved, &shells, (stats, &course))?;
         self.check(|| check::arrangement(&out))?;
         Ok(out)
     }
@@ -186,37 +228,37 @@ impl Arranger {
         &self,
         surfaces: &[Surface],
         stats: &mut Stats,
-        watch: &mut Watch,
+        course: &Course,
     ) -> Result<(Soup, Vec<[u32; 2]>), ArrangementError> {
+        course.begin("soup", stats)?;
         let placed = Placed::snapped(surfaces, |surface, size| self.error(surface, size))?;
         let reach = match self.planes {
             Planes::AsGiven => 0.0,
             _ => placed.tolerances.iter().map(|t| t.planes()).fold(0.0, f64::max),
         };
         let mut soup = Soup::new(surfaces, placed);
-        watch.lap(stats, "soup");
-        let mut pairs = BoxTree::new(&facet_boxes(&soup, reach)).pairs();
-        watch.lap(stats, "pairs");
+        course.begin("pairs", stats)?;
+        let mut pairs = BoxTree::new(&facet_boxes(&soup, reach)).pairs(course)?;
         if self.planes == Planes::AsGiven {
             return Ok((soup, pairs));
         }
+        course.begin("planes", stats)?;
         let mut report = Report::default();
         let input = Input { soup: &soup, pairs: &pairs };
-        let mut scan = Scan::new(&input);
+        let mut scan = Scan::new(&input, course)?;
         if let Some(placed) = canonical::merged_points(&input, &scan, &mut report) {
             soup = Soup::new(surfaces, placed);
-            pairs = BoxTree::new(&facet_boxes(&soup, reach)).pairs();
-            scan = Scan::new(&Input { soup: &soup, pairs: &pairs });
+            pairs = BoxTree::new(&facet_boxes(&soup, reach)).pairs(course)?;
+            scan = Scan::new(&Input { soup: &soup, pairs: &pairs }, course)?;
         }
         let input = Input { soup: &soup, pairs: &pairs };
         if let Some(placed) = canonical::on_planes(&input, &scan, &mut report) {
             soup = Soup::new(surfaces, placed);
-            pairs = BoxTree::new(&facet_boxes(&soup, 0.0)).pairs();
+            pairs = BoxTree::new(&facet_boxes(&soup, 0.0)).pairs(course)?;
         }
         stats.canonical_planes = report.planes;
         stats.moved_points = report.moved;
         stats.farthest_move = report.farthest * soup.grid.step();
-        watch.lap(stats, "planes");
         Ok((soup, pairs))
     }
 
@@ -252,26 +294,27 @@ fn facet_boxes(soup: &Soup, reach: f64) -> Vec<Aabb> {
         .collect()
 }
 
-fn contacts(soup: &Soup, pairs: &[[u32; 2]]) -> Contacts {
+fn contacts(soup: &Soup, pairs: &[[u32; 2]], course: &Course) -> Result<Contacts, Cancelled> {
     let (n_chunks, range) = parallel::chunks(pairs.len(), PAIRS_A_CHUNK);
-    let parts = parallel::map(n_chunks, |chunk| {
+    let parts = course.map(n_chunks, |chunk| {
         let (mut out, mut scratch) = (Contacts::default(), Scratch::default());
         for &[f, g] in &pairs[range(chunk)] {
             crossing::meet(soup, f, g, &mut scratch, &mut out);
         }
         out
-    });
+    })?;
     let n_points = soup.geometry.n_points() as u32;
-    parts.into_iter().fold(Contacts::default(), |mut all, part| {
+    Ok(parts.into_iter().fold(Contacts::default(), |mut all, part| {
         all.append(part, n_points);
         all
-    })
+    }))
 }
 
 /// Facets by groups that overlap in one plane, in the order of their first facets.
-fn groups(soup: &Soup, contacts: &mut Contacts) -> Vec<Vec<u32>> {
+fn groups(soup: &Soup, contacts: &mut Contacts, course: &Course) -> Result<Vec<Vec<u32>>, Cancelled> {
     let mut sets = UnionFind::new(soup.n_facets());
     for pair in std::mem::take(&mut contacts.coplanar) {
+        course.go_on()?;
         if coplanar::meet(soup, pair, contacts) {
             sets.union(pair[0], pair[1]);
         }
@@ -281,17 +324,22 @@ fn groups(soup: &Soup, contacts: &mut Contacts) -> Vec<Vec<u32>> {
     for (&label, facet) in labels.iter().zip(0..) {
         groups[label as usize].push(facet);
     }
-    groups
+    Ok(groups)
 }
 
-fn fragments(soup: &Soup, cuts: &Cuts, interner: &Interner, groups: &[Vec<u32>]) -> Vec<Fragments> {
-    let fragmenter = Fragmenter { soup, cuts, vertices: &interner.vertices };
+fn fragments(
+    soup: &Soup,
+    cuts: &Cuts,
+    interner: &Interner,
+    groups: &[Vec<u32>],
+    course: &Course,
+) -> Result<Vec<Fragments>, Cancelled> {
+    let fragmenter = Fragmenter { soup, cuts, vertices: &interner.vertices, course: course.quiet() };
     let (n_chunks, range) = parallel::chunks(groups.len(), GROUPS_A_CHUNK);
-    parallel::map(n_chunks, |chunk| {
+    course.map(n_chunks, |chunk| {
         let mut out = Fragments::default();
-        for group in &groups[range(chunk)] {
-            fragmenter.fragment(group, &mut out);
-        }
+        // Groups after one that was cancelled change nothing: the whole stage is.
+        let _ = groups[range(chunk)].iter().try_for_each(|group| fragmenter.fragment(group, &mut out));
         out
     })
 }
@@ -311,8 +359,8 @@ fn assemble(
     rings: &Cells,
     dissolved: Dissolved,
     shells: &Shells,
-    (mut stats, mut watch): (Stats, Watch),
-) -> Arrangement {
+    (mut stats, course): (Stats, &Course),
+) -> Result<Arrangement, Cancelled> {
     let shells_of_face: Vec<[u32; 2]> = dissolved
         .old_face
         .iter()
@@ -329,7 +377,7 @@ fn assemble(
         jumps.push_face(of_face.map(|p| (p.solid, coefficient(p) * i32::from(p.sign))));
     }
     let windings = Windings::new(shells.n_cells as usize, surfaces.len(), &cells_of_face, &jumps);
-    watch.lap(&mut stats, "membership");
+    course.begin("complex", &mut stats)?;
     let plane_of_face = dissolved.old_face.iter().map(|&f| soup.plane_class(skeleton.facet(f))).collect();
     let facet_of_face = dissolved.old_face.iter().map(|&f| skeleton.facet(f)).collect();
     let vertices: Vec<_> = dissolved.merged.vertices.iter().map(|&v| skeleton.vertices[v as usize]).collect();
@@ -342,13 +390,13 @@ fn assemble(
         ],
     );
     let rings = new_rings(rings, &dissolved);
-    watch.lap(&mut stats, "complex");
+    course.finish(&mut stats);
     stats.grid_step = soup.grid.step();
     stats.facets = soup.n_facets() as u64;
     stats.triangulated_polygons = u64::from(soup.triangulated);
     stats.degenerate_faces = u64::from(soup.degenerate);
     stats.exact_fallbacks = soup.geometry.counters.exact();
-    Arrangement {
+    Ok(Arrangement {
         complex,
         loops: dissolved.merged.loops,
         face_loops: dissolved.merged.face_loops,
@@ -370,7 +418,7 @@ fn assemble(
         bend: soup.bend,
         geometry: soup.geometry,
         stats,
-    }
+    })
 }
 
 /// Parents of each new face, in terms of input faces.

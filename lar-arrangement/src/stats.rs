@@ -1,6 +1,6 @@
 //! What an arrangement cost: counts and stage times.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Counts and times of one arrangement.
 #[derive(Clone, Debug, Default)]
@@ -37,22 +37,5 @@ impl Stats {
     #[must_use]
     pub fn total(&self) -> Duration {
         self.stages.iter().map(|s| s.1).sum()
-    }
-}
-
-/// A stop watch that names the laps.
-pub(crate) struct Watch {
-    last: Instant,
-}
-
-impl Watch {
-    pub(crate) fn start() -> Self {
-        Self { last: Instant::now() }
-    }
-
-    pub(crate) fn lap(&mut self, stats: &mut Stats, stage: &'static str) {
-        let now = Instant::now();
-        stats.stages.push((stage, now - self.last));
-        self.last = now;
     }
 }

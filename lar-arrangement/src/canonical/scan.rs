@@ -4,6 +4,7 @@ use super::Input;
 use super::vector::{distance, dot, minus};
 use crate::boxes::{Aabb, BoxTree};
 use crate::parallel;
+use crate::progress::{Cancelled, Course};
 
 /// Pairs of facets a chunk of work.
 const PAIRS_A_CHUNK: usize = 1 << 14;
@@ -42,25 +43,24 @@ struct Outline {
 }
 
 impl Scan {
-    pub(crate) fn new(input: &Input) -> Self {
+    pub(crate) fn new(input: &Input, course: &Course) -> Result<Self, Cancelled> {
         let shapes = parallel::map(input.soup.n_facets(), |f| Shape::of(input, f as u32));
         let outlines: Vec<Outline> = shapes.iter().map(Outline::of).collect();
         let (n_chunks, range) = parallel::chunks(input.pairs.len(), PAIRS_A_CHUNK);
-        let coplanar = parallel::map(n_chunks, |chunk| {
+        let coplanar = course.map(n_chunks, |chunk| {
             let pairs = input.pairs[range(chunk)].iter().copied();
             let near = |&[f, g]: &[u32; 2]| {
                 !outlines[f as usize].is_across(&outlines[g as usize])
                     && are_nearly_coplanar(input, &shapes, [f, g])
             };
             pairs.filter(near).collect::<Vec<_>>()
-        })
-        .concat();
-        Self { near: near_points(input), coplanar, shapes }
+        })?;
+        Ok(Self { near: near_points(input, course)?, coplanar: coplanar.concat(), shapes })
     }
 }
 
 /// Pairs of points within the tolerance, ascending.
-fn near_points(input: &Input) -> Vec<[u32; 2]> {
+fn near_points(input: &Input, course: &Course) -> Result<Vec<[u32; 2]>, Cancelled> {
     let geometry = &input.soup.geometry;
     let limits: Vec<f64> = input.soup.tolerances.iter().map(|t| t.points()).collect();
     let boxed = |(&limit, p): (&f64, u32)| {
@@ -75,9 +75,9 @@ fn near_points(input: &Input) -> Vec<[u32; 2]> {
     };
     let ascending = |[p, q]: [u32; 2]| [p.min(q), p.max(q)];
     let mut near: Vec<[u32; 2]> =
-        BoxTree::new(&boxes).pairs().into_iter().filter(is_near).map(ascending).collect();
+        BoxTree::new(&boxes).pairs(course)?.into_iter().filter(is_near).map(ascending).collect();
     near.sort_unstable();
-    near
+    Ok(near)
 }
 
 fn are_nearly_coplanar(input: &Input, shapes: &[Shape], [f, g]: [u32; 2]) -> bool {

@@ -3,11 +3,11 @@
 //! Two definitions of one point always lie next to each other on some carrier, or are joined by a chain of such
 //! neighbours: all carriers through the point cross each other there. So no search by position is needed.
 
-use crate::parallel;
 use crate::planar::along::{Along, KEY_ERROR, long_axis};
 use crate::planar::carriers::Carriers;
 use crate::planar::crossings::Crossings;
 use crate::planar::events::{Event, sorted_by_place};
+use crate::progress::{Cancelled, Course};
 use crate::union_find::UnionFind;
 
 /// Vertices along carriers.
@@ -37,9 +37,9 @@ pub(crate) enum VertexSource {
 
 impl Chains {
     /// O(events log events).
-    pub(crate) fn new(carriers: &Carriers, found: Crossings) -> Self {
+    pub(crate) fn new(carriers: &Carriers, found: Crossings, course: &Course) -> Result<Self, Cancelled> {
         let Crossings { crossings, ranges, lots, .. } = found;
-        let parts = parallel::map(ranges.len(), |range| {
+        let parts = course.map(ranges.len(), |range| {
             let first = ranges.carriers(range).start;
             let n = ranges.carriers(range).len();
             let events: Vec<Event> = lots.iter().flat_map(|lot| lot.of_range(range)).collect();
@@ -50,7 +50,7 @@ impl Chains {
                 part.push(carriers, &crossings, (first + c) as u32, own);
             }
             part
-        });
+        })?;
         drop(lots);
         let mut out = Self { offsets: vec![0], ..Self::default() };
         out.chain.reserve(parts.iter().map(|part| part.chain.len()).sum());
@@ -63,7 +63,7 @@ impl Chains {
         }
         out.number(carriers.points.len() as u32, &crossings, &same);
         out.find_stretches(carriers);
-        out
+        Ok(out)
     }
 
     /// Most members are whole carriers; the places of the others are looked up a carrier at a time, all in one pass.

@@ -6,6 +6,7 @@ use crate::planar::along::{key, long_axis};
 use crate::planar::bundles::{BUNDLE, Bundle, Bundles, bundles_at, n_sampled};
 use crate::planar::carriers::{Carriers, cross};
 use crate::planar::events::{CROSSING, Event, Lot, Ranges};
+use crate::progress::{Cancelled, Course};
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 
@@ -24,25 +25,32 @@ pub(crate) struct Crossings {
 ///
 /// A sample is searched in rounds of growing length, so that bundles are known before most pairs are looked at. A
 /// block is paired with what comes after it, so what is left after a round can be laid out anew.
-pub(crate) fn crossings(carriers: &Carriers, tree: &BoxTree<2>) -> Crossings {
+pub(crate) fn crossings(
+    carriers: &Carriers,
+    tree: &BoxTree<2>,
+    course: &Course,
+) -> Result<Crossings, Cancelled> {
     let mut out = Crossings::with_stops(carriers);
     let mut bundles = Bundles::of_fans(carriers);
     let mut regrouped = (!bundles.is_empty()).then(|| bundles.tree(carriers, tree.items().to_vec()));
     let sample = n_sampled(tree.items().len());
     let (mut done, mut sampled, mut round) = (0, 0, 1);
+    let quiet = course.quiet();
     loop {
         let tree = regrouped.as_ref().unwrap_or(tree);
         let n_blocks = tree.n_blocks();
         let to = if sampled < sample { (done + round).min(n_blocks) } else { n_blocks };
         let mut is_news = false;
-        for part in search(carriers, tree, &bundles, done..to) {
+        // Nearly all of the work is in the last round.
+        let course = if to == n_blocks { course } else { &quiet };
+        for part in search(carriers, tree, &bundles, done..to, course)? {
             for bundle in &part.bundles {
                 is_news |= bundles.learn(bundle);
             }
             out.push(carriers, part);
         }
         if to == n_blocks {
-            return out;
+            return Ok(out);
         }
         (done, sampled, round) = (to, sampled + to - done, 2 * round);
         if is_news {
@@ -53,13 +61,19 @@ pub(crate) fn crossings(carriers: &Carriers, tree: &BoxTree<2>) -> Crossings {
 }
 
 /// What is found in some blocks, a chunk of them at a time.
-fn search(carriers: &Carriers, tree: &BoxTree<2>, bundles: &Bundles, blocks: Range<usize>) -> Vec<Part> {
+fn search(
+    carriers: &Carriers,
+    tree: &BoxTree<2>,
+    bundles: &Bundles,
+    blocks: Range<usize>,
+    course: &Course,
+) -> Result<Vec<Part>, Cancelled> {
     let ranges = Ranges::new(carriers.ends.len());
     let size = (tree.n_blocks() / 256).clamp(8, 64);
     let (n_chunks, range) = parallel::chunks(blocks.len(), size);
-    parallel::map(n_chunks, |chunk| {
+    course.map(n_chunks, |chunk| {
         let mut found = Found::default();
-        for block in range(chunk) {
+        for block in range(chunk).take_while(|_| !course.is_cancelled()) {
             found.search(carriers, tree, bundles, blocks.start + block);
         }
         let Found { crossings, events, bundles, pairs, .. } = found;

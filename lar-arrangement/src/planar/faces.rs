@@ -8,6 +8,7 @@ use crate::planar::along::parameter;
 use crate::planar::carriers::{Carriers, cross};
 use crate::planar::chains::{Chains, VertexSource};
 use crate::planar::edges::{Edges, NO_EDGE, Run};
+use crate::progress::{Cancelled, Course};
 use crate::subdivision::{Cycles, Subdivision};
 use std::cmp::Ordering;
 
@@ -25,18 +26,23 @@ pub(crate) struct Embedding<'a> {
 impl Embedding<'_> {
     /// The faces, from the cycles and the component of each run. O(n), and one location for each component when
     /// there are several.
-    pub(crate) fn subdivision(&self, cycles: Cycles, component_of: &[u32]) -> Subdivision {
+    pub(crate) fn subdivision(
+        &self,
+        cycles: Cycles,
+        component_of: &[u32],
+        course: &Course,
+    ) -> Result<Subdivision, Cancelled> {
         let firsts = self.first_runs(component_of);
         let around = match firsts.len() {
             1 => vec![None],
-            n => parallel::map(n, |i| self.locate(firsts[i])),
+            n => course.map(n, |i| self.locate(firsts[i]))?,
         };
         let mut sweep: Vec<(u32, Option<u32>)> = firsts.into_iter().zip(around).collect();
         parallel::sort_distinct_by(&mut sweep, |a, b| self.cmp_starts(a.0, b.0));
         let outer = |&(run, _): &(u32, _)| cycles.of[2 * self.edges.runs[run as usize].first_edge as usize];
         let outer: Vec<u32> = sweep.iter().map(outer).collect();
         let around: Vec<Option<u32>> = sweep.iter().map(|(_, around)| *around).collect();
-        Subdivision::nested(cycles, &outer, &around)
+        Ok(Subdivision::nested(cycles, &outer, &around))
     }
 
     /// Of each component the run that leaves its first vertex last, counter-clockwise from the left. Carriers point

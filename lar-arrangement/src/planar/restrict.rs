@@ -19,7 +19,7 @@ use std::sync::OnceLock;
 
 const SIGMA: &str = "σ";
 
-impl PlanarArranger {
+impl PlanarArranger<'_> {
     /// The arrangement of the part of a drawing inside a polygon σ, given by its loops (holes included, in any
     /// direction: its inside is found by parity). The outline of σ is part of the result.
     ///

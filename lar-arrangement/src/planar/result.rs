@@ -14,12 +14,24 @@ use crate::planar::faces::Embedding;
 use crate::planar::input::Drawing;
 use crate::planar::location::LocationIndex;
 use crate::planar::positions::{lengths, positions};
-use crate::stats::{Stats, Watch};
+use crate::progress::{Cancel, Control, Course, Plan, Progress};
+use crate::stats::Stats;
 use crate::subdivision::Cycles;
 use crate::winding::Windings;
 use lar_core::{Biconnected, Cells, ChainComplex, EdgeId, FaceId, Graph, VertexId};
 use std::num::NonZeroUsize;
 use std::sync::OnceLock;
+
+/// The stages, and their usual shares in the time.
+const PLAN: &Plan = &[
+    ("carriers", 10),
+    ("crossings", 30),
+    ("chains", 22),
+    ("cycles", 22),
+    ("faces", 6),
+    ("complex", 8),
+    ("membership", 2),
+];
 
 /// What becomes of edges with the same face on both sides: ends that lead nowhere, and bridges between parts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -33,8 +45,9 @@ pub enum Dangling {
 
 /// Options for a planar arrangement.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct PlanarArranger {
+pub struct PlanarArranger<'a> {
     threads: Option<NonZeroUsize>,
+    control: Control<'a>,
     pub(super) dangling: Dangling,
     pub(super) keep_isolated: bool,
 }
@@ -83,7 +96,7 @@ pub fn planar_arrangement(drawing: &Drawing) -> Result<PlanarArrangement, Arrang
     PlanarArranger::new().arrange(drawing)
 }
 
-impl PlanarArranger {
+impl<'a> PlanarArranger<'a> {
     /// The default options: all processors, dangling edges left out.
     #[must_use]
     pub fn new() -> Self {
@@ -121,36 +134,52 @@ impl PlanarArranger {
         self
     }
 
+    /// Calls `report` as the work goes on: from the threads at work, but never from two at once. The result does not
+    /// depend on it.
+    #[must_use]
+    pub fn progress(mut self, report: &'a (dyn Fn(Progress) + Sync)) -> Self {
+        self.control.report = Some(report);
+        self
+    }
+
+    /// Gives up with [`ArrangementError::Cancelled`] soon after `cancel` is asked for: within a chunk of work.
+    #[must_use]
+    pub fn cancel(mut self, cancel: &'a Cancel) -> Self {
+        self.control.cancel = Some(cancel);
+        self
+    }
+
     /// Computes the arrangement. O((n + k) log n) time and O(n + k) memory for n segments whose boxes meet in k
     /// pairs; pairs through one common point cost no memory.
     ///
     /// # Errors
     /// Points that are not two-dimensional or not finite, segments between points that do not exist; when the
-    /// threads cannot be started.
+    /// threads cannot be started or the work was cancelled.
     pub fn arrange(&self, drawing: &Drawing) -> Result<PlanarArrangement, ArrangementError> {
         parallel::with_threads(self.threads, || self.run(drawing))?
     }
 
     fn run(&self, drawing: &Drawing) -> Result<PlanarArrangement, ArrangementError> {
         let mut stats = Stats::default();
-        let mut watch = Watch::start();
+        let course = Course::new(self.control, PLAN);
+        course.begin("carriers", &mut stats)?;
         let grid = fitted_grid(drawing)?;
         let points = drawing.points.coords();
         let snapped = parallel::map(drawing.points.len(), |i| grid.snap([points[2 * i], points[2 * i + 1]]));
         let carriers = Carriers::new(drawing, &snapped);
         drop(snapped);
-        watch.lap(&mut stats, "carriers");
+        course.begin("crossings", &mut stats)?;
         let n_carriers = carriers.ends.len() as u32;
         let tree = BoxTree::over(sample_first(&Vec::from_iter(0..n_carriers)), |c| carriers.box_of(c));
-        let found = crossings(&carriers, &tree);
+        let found = crossings(&carriers, &tree, &course)?;
         stats.pairs_tested = found.pairs_tested;
         stats.pairs_crossing = found.crossings.len() as u64;
-        watch.lap(&mut stats, "crossings");
-        let chains = Chains::new(&carriers, found);
-        watch.lap(&mut stats, "chains");
+        course.begin("chains", &mut stats)?;
+        let chains = Chains::new(&carriers, found, &course)?;
+        course.begin("cycles", &mut stats)?;
         let (positions, (edges, cycles, component_of)) =
             parallel::join(|| positions(&carriers, &chains), || self.cycles(&carriers, &chains));
-        watch.lap(&mut stats, "cycles");
+        course.begin("faces", &mut stats)?;
         let embedding = Embedding {
             carriers: &carriers,
             chains: &chains,
@@ -158,18 +187,18 @@ impl PlanarArranger {
             edges: &edges,
             positions: &positions,
         };
-        let subdivision = embedding.subdivision(cycles, &component_of);
+        let subdivision = embedding.subdivision(cycles, &component_of, &course)?;
         drop((tree, component_of));
-        watch.lap(&mut stats, "faces");
+        course.begin("complex", &mut stats)?;
         stats.grid_step = grid.step();
         let positions = lengths(&grid, &carriers, &chains, positions);
         let mut out = assemble(positions, edges, subdivision, chains, carriers, grid);
-        watch.lap(&mut stats, "complex");
+        course.begin("membership", &mut stats)?;
         out.wind(drawing);
-        watch.lap(&mut stats, "membership");
         if self.keep_isolated {
             out.add_isolated(|_| true);
         }
+        course.finish(&mut stats);
         out.stats = stats;
         Ok(out)
     }

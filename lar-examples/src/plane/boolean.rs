@@ -122,6 +122,6 @@ fn arrange(
     arranger(threads).dangling(Dangling::Keep).arrange(&drawing)
 }
 
-pub(crate) fn arranger(threads: NonZeroUsize) -> PlanarArranger {
+pub(crate) fn arranger(threads: NonZeroUsize) -> PlanarArranger<'static> {
     PlanarArranger::new().threads(threads)
 }
