@@ -6,8 +6,8 @@ use crate::shapes::{self, Shapes};
 use lar_arrangement::Arrangement;
 use lar_core::{CellId, FaceId, Surface};
 use lar_viewer::{
-    Camera, CellShape, CellStyle, Coloring, Drawable, OffscreenRenderer, Scene, View, WHITE, push_axes,
-    push_cells,
+    Camera, CellShape, CellStyle, Coloring, Drawable, OffscreenRenderer, Orientation, Scene, View, WHITE,
+    push_axes, push_cells,
 };
 use std::path::Path;
 
@@ -57,7 +57,8 @@ pub fn figures(
     let faces: Vec<CellShape> = faces.map(|f| shapes.face(f)).collect::<Result<_, _>>()?;
     let figure = |panel, title, scene: Scene, explode, azimuth| {
         let [width, height] = size.map(f64::from);
-        let camera = Camera { azimuth, elevation: ELEVATION, ..Camera::default() };
+        let orientation = Orientation::turntable(azimuth, ELEVATION);
+        let camera = Camera { orientation, ..Camera::default() };
         let scale = (height / DESIGN_HEIGHT).clamp(0.5, 4.0) as f32;
         let view = View { camera, explode, scale, ..View::default() }.fit(&scene, width / height.max(1.0));
         Figure { panel, title, scene, view }

@@ -21,7 +21,7 @@ fn main() -> Result<(), ViewerError> {
             for samples in 1..=3 {
                 let mut view = View { samples, ..View::fitted(&scene, [1.0; 3], 16.0 / 9.0) };
                 let views: Vec<View> = std::iter::repeat_with(|| {
-                    view.camera = view.camera.orbit([5.0, 0.0]);
+                    view.camera.orientation = view.camera.orientation.orbit([5.0, 0.0]);
                     view
                 })
                 .take(FRAMES)

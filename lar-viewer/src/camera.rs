@@ -1,21 +1,21 @@
-//! The camera: a turntable about the z axis, with perspective or orthographic projection.
+//! The camera: a target, an orientation, a distance, with perspective or orthographic projection.
 //!
-//! The eye sits at `distance` from `target`, in the direction given by `azimuth` (about z, from x towards y) and
-//! `elevation` (above the xy plane). The three axes of the camera come from these angles in closed form, not from a
-//! cross product with an up vector, so that looking straight down is as good a view as any and no parameter that
-//! passes [`Camera::validate`] yields NaN.
+//! The eye sits at `distance` from `target`, backwards along the orientation's line of sight. No parameter that passes
+//! [`Camera::validate`] yields NaN, and looking straight down is as good a view as any.
 //!
 //! The *target plane* passes through the target, parallel to the screen. Both projections show it at the same size,
 //! pan and zoom keep its point under the cursor, so switching projection never loses the object.
 //!
 //! All lengths are world units in f64; the renderer rounds only the finished matrices, relative to the scene.
 
-use crate::{Bounds, ViewerError};
+use crate::{Bounds, Orientation, ViewerError};
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Turning angle per pixel of mouse motion: a drag over 400 pixels is half a turn.
-const RADIANS_PER_PIXEL: f64 = PI / 400.0;
+/// Vertical opening angle when nothing else is asked for, in radians.
+pub(crate) const DEFAULT_FOV: f64 = 0.45;
+
+/// Opening angles that a camera may have, in radians.
+const FOVS: std::ops::RangeInclusive<f64> = 1e-3..=3.0;
 
 /// Part of the picture's half side left free around a fitted scene.
 const FIT_MARGIN: f64 = 0.06;
@@ -50,10 +50,8 @@ pub struct Camera {
     pub target: [f64; 3],
     /// From the target to the eye.
     pub distance: f64,
-    /// Angle of the eye about the z axis, from x towards y, in radians.
-    pub azimuth: f64,
-    /// Angle of the eye above the xy plane, −π/2 to π/2.
-    pub elevation: f64,
+    /// Which way is right, up and back.
+    pub orientation: Orientation,
     /// Vertical opening angle in radians.
     pub fov_y: f64,
     /// Perspective or orthographic.
@@ -66,9 +64,8 @@ impl Default for Camera {
         Self {
             target: [0.0; 3],
             distance: 6.0,
-            azimuth: -1.05,
-            elevation: 0.42,
-            fov_y: 0.45,
+            orientation: Orientation::default(),
+            fov_y: DEFAULT_FOV,
             projection: Projection::Perspective,
         }
     }
@@ -87,24 +84,74 @@ impl Camera {
             within("a camera target coordinate", x, x.abs() <= 1e108, "at most 1e108 in magnitude")?;
         }
         within("the camera distance", self.distance, DISTANCES.contains(&self.distance), "in 1e-90..=1e110")?;
-        within("the camera azimuth", self.azimuth, self.azimuth.abs() <= 1e6, "in ±1e6 radians")?;
-        within("the camera elevation", self.elevation, self.elevation.abs() <= FRAC_PI_2, "in ±π/2")?;
-        within("the field of view", self.fov_y, (1e-3..=3.0).contains(&self.fov_y), "in 0.001..=3 radians")
+        within("the field of view", self.fov_y, FOVS.contains(&self.fov_y), "in 0.001..=3 radians")
+    }
+
+    /// A perspective camera with its eye here, this target in the middle of the picture, and this direction as far
+    /// upwards as that allows.
+    ///
+    /// ```
+    /// let camera = lar_viewer::Camera::looking([3., 0., 0.], [0.; 3], [0., 0., 1.])?;
+    /// assert_eq!(camera.distance, 3.0);
+    /// # Ok::<(), lar_viewer::ViewerError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// `InvalidView` when eye and target coincide, when up is parallel to the line of sight, or when a coordinate is
+    /// not finite or too large.
+    pub fn looking(eye: [f64; 3], target: [f64; 3], up: [f64; 3]) -> Result<Self, ViewerError> {
+        let back = DVec3::from(eye) - DVec3::from(target);
+        let orientation = Orientation::facing(back.to_array(), up)?;
+        let camera = Self { target, distance: back.length(), orientation, ..Self::default() };
+        camera.validate()?;
+        Ok(camera)
+    }
+
+    /// The same camera with parallel projection, showing this height of the world.
+    ///
+    /// # Errors
+    /// `InvalidView` when the height is not above zero and finite, or too large.
+    pub fn orthographic(self, height: f64) -> Result<Self, ViewerError> {
+        let distance = 0.5 * height / (0.5 * self.fov_y).tan();
+        let camera = Self { distance, projection: Projection::Orthographic, ..self };
+        camera.validate()?;
+        Ok(camera)
+    }
+
+    /// Height of the world that the picture shows in the target plane.
+    #[must_use]
+    pub fn visible_height(&self) -> f64 {
+        self.world_per_pixel(1.0)
+    }
+
+    /// The camera as arguments of `lar render`: `--eye`, `--target`, `--up`, and `--fov` in degrees or `--ortho` with
+    /// the height that is shown. Coordinates have all their digits.
+    ///
+    /// ```
+    /// let camera = lar_viewer::Camera::looking([3., 0., 0.], [0.; 3], [0., 0., 1.])?;
+    /// assert!(camera.arguments().starts_with("--eye=3,0,0 --target=0,0,0 --up="));
+    /// # Ok::<(), lar_viewer::ViewerError>(())
+    /// ```
+    #[must_use]
+    pub fn arguments(&self) -> String {
+        let list = |[x, y, z]: [f64; 3]| format!("{x},{y},{z}");
+        let lens = match self.projection {
+            Projection::Perspective => format!("--fov={}", self.fov_y.to_degrees()),
+            Projection::Orthographic => format!("--ortho={}", self.visible_height()),
+        };
+        let [_, up, _] = self.axes();
+        format!("--eye={} --target={} --up={} {lens}", list(self.eye()), list(self.target), list(up))
     }
 
     /// The camera's axes in the world: right, up, and back (from the target towards the eye); orthonormal and
     /// right-handed.
     #[must_use]
     pub fn axes(&self) -> [[f64; 3]; 3] {
-        self.basis().map(|v| v.to_array())
+        self.orientation.axes()
     }
 
     fn basis(&self) -> [DVec3; 3] {
-        let (sin_a, cos_a) = self.azimuth.sin_cos();
-        let (sin_e, cos_e) = self.elevation.sin_cos();
-        let right = DVec3::new(-sin_a, cos_a, 0.0);
-        let back = DVec3::new(cos_e * cos_a, cos_e * sin_a, sin_e);
-        [right, back.cross(right), back]
+        self.orientation.basis()
     }
 
     /// Where the eye is; for an orthographic camera the centre of the picture lies on the line from here to the target.
@@ -153,24 +200,17 @@ impl Camera {
         Self { target: target.to_array(), distance: distance.min(*DISTANCES.end()), ..self }
     }
 
-    /// Turned by a mouse motion of this many pixels, x to the right and y down: the object follows the mouse.
-    #[must_use]
-    pub fn orbit(self, pixels: [f64; 2]) -> Self {
-        Self {
-            azimuth: (self.azimuth - pixels[0] * RADIANS_PER_PIXEL).rem_euclid(TAU),
-            elevation: (self.elevation + pixels[1] * RADIANS_PER_PIXEL).clamp(-FRAC_PI_2, FRAC_PI_2),
-            ..self
-        }
-    }
-
     /// Moved parallel to the screen by a mouse motion of this many pixels, x to the right and y down, in a picture
-    /// `height` pixels high: the point of the target plane that was under the cursor stays under it.
+    /// `height` pixels high: the point of the target plane that was under the cursor stays under it. A motion that
+    /// leaves the space of valid cameras (NaN, overflow) moves nothing.
     #[must_use]
     pub fn pan(self, pixels: [f64; 2], height: f64) -> Self {
         let [right, up, _] = self.basis();
         let scale = self.world_per_pixel(height);
         let shift = right * (-pixels[0] * scale) + up * (pixels[1] * scale);
-        Self { target: (DVec3::from(self.target) + shift).to_array(), ..self }
+        let target = (DVec3::from(self.target) + shift).to_array();
+        let moved = Self { target, ..self };
+        if moved.validate().is_ok() { moved } else { self }
     }
 
     /// Nearer by this factor (above 1 enlarges), keeping the point of the target plane under the cursor where it is.
@@ -178,6 +218,9 @@ impl Camera {
     #[must_use]
     pub fn zoom(self, factor: f64, cursor: [f64; 2], height: f64) -> Self {
         let distance = (self.distance / factor).clamp(*DISTANCES.start(), *DISTANCES.end());
+        if distance.is_nan() {
+            return self;
+        }
         let kept = 1.0 - distance / self.distance;
         let nearer = self.pan(cursor.map(|c| -c * kept), height);
         Self { distance, ..nearer }
@@ -288,6 +331,7 @@ impl Reach {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+    use std::f64::consts::FRAC_PI_2;
 
     fn camera() -> impl Strategy<Value = Camera> {
         let target = [-10.0..10.0_f64, -10.0..10.0_f64, -10.0..10.0_f64];
@@ -296,8 +340,7 @@ mod tests {
             |(target, distance, (azimuth, elevation), fov_y, perspective)| Camera {
                 target,
                 distance,
-                azimuth,
-                elevation,
+                orientation: Orientation::turntable(azimuth, elevation),
                 fov_y,
                 projection: if perspective { Projection::Perspective } else { Projection::Orthographic },
             },
@@ -315,15 +358,6 @@ mod tests {
     }
 
     proptest! {
-        #[test]
-        fn axes_are_orthonormal_and_right_handed(camera in camera()) {
-            let [r, u, b] = camera.basis();
-            let m = DMat3::from_cols(r, u, b);
-            prop_assert!((m * m.transpose()).abs_diff_eq(DMat3::IDENTITY, 1e-12));
-            prop_assert!((m.determinant() - 1.0).abs() < 1e-12);
-            prop_assert!(0.0 <= u.z, "up never points down");
-        }
-
         #[test]
         fn pan_keeps_the_point_under_the_cursor(camera in camera(), x in -300.0..300.0, y in -300.0..300.0) {
             let p = on_target_plane(&camera, 0.1, -0.2);
@@ -363,11 +397,34 @@ mod tests {
         }
 
         #[test]
-        fn orbit_stays_valid_and_keeps_target_and_distance(camera in camera(), x in -1e9..1e9, y in -1e9..1e9) {
-            let turned = camera.orbit([x, y]);
-            turned.validate().unwrap();
-            prop_assert_eq!(turned.target, camera.target);
-            prop_assert_eq!(turned.distance, camera.distance);
+        fn arguments_describe_the_camera(camera in camera()) {
+            let arguments = camera.arguments();
+            let value = |name: &str| {
+                let found = arguments.split(' ').find_map(|a| a.strip_prefix(name)?.strip_prefix('='));
+                found.map(|v| v.split(',').map(|x| x.parse().unwrap()).collect::<Vec<f64>>())
+            };
+            let [eye, target, up] = ["--eye", "--target", "--up"].map(|n| {
+                <[f64; 3]>::try_from(value(n).expect("is given")).expect("three coordinates")
+            });
+            let mut read = Camera::looking(eye, target, up).unwrap();
+            if let Some(fov) = value("--fov") {
+                read.fov_y = fov[0].to_radians();
+            }
+            if let Some(height) = value("--ortho") {
+                read = read.orthographic(height[0]).unwrap();
+            }
+            prop_assert_eq!(read.projection, camera.projection);
+            let at = on_target_plane(&camera, 0.1, -0.2);
+            assert_near(read.project(at, 720.0).unwrap(), camera.project(at, 720.0).unwrap(), 1e-5);
+        }
+
+        #[test]
+        fn motions_that_are_not_numbers_move_nothing(camera in camera(), bad in prop_oneof![Just(f64::NAN), Just(f64::INFINITY)]) {
+            prop_assert_eq!(camera.pan([bad, 1.0], 720.0), camera);
+            prop_assert_eq!(camera.pan([1.0, 1.0], 0.0), camera);
+            prop_assert_eq!(camera.zoom(f64::NAN, [0.0; 2], 720.0), camera);
+            camera.zoom(bad, [bad, 0.0], 720.0).validate().unwrap();
+            camera.zoom(0.0, [10.0, 0.0], 720.0).validate().unwrap();
         }
 
         #[test]
@@ -402,8 +459,11 @@ mod tests {
     fn dragging_right_turns_the_near_side_to_the_right() {
         let camera = Camera::default();
         let near = (DVec3::from(camera.target) + camera.basis()[2]).to_array();
-        assert!(0.0 < camera.orbit([10.0, 0.0]).project(near, 100.0).unwrap()[0]);
-        assert!(0.0 < camera.orbit([0.0, 10.0]).project(near, 100.0).unwrap()[1]);
+        for turn in [Orientation::orbit, Orientation::tumble] {
+            let turned = |pixels| Camera { orientation: turn(camera.orientation, pixels), ..camera };
+            assert!(0.0 < turned([10.0, 0.0]).project(near, 100.0).unwrap()[0]);
+            assert!(0.0 < turned([0.0, 10.0]).project(near, 100.0).unwrap()[1]);
+        }
     }
 
     #[track_caller]
@@ -418,8 +478,6 @@ mod tests {
         check_refused(Camera { distance: 0.0, ..good }, "the camera distance is 0");
         check_refused(Camera { distance: f64::NAN, ..good }, "NaN");
         check_refused(Camera { target: [0.0, f64::INFINITY, 0.0], ..good }, "target coordinate is inf");
-        check_refused(Camera { azimuth: f64::NAN, ..good }, "azimuth");
-        check_refused(Camera { elevation: 1.6, ..good }, "elevation is 1.6");
         check_refused(Camera { fov_y: -0.1, ..good }, "field of view is -0.1");
     }
 

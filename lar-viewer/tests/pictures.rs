@@ -3,8 +3,8 @@ mod support;
 
 use lar_core::{Points, TriangleMesh};
 use lar_viewer::{
-    CellStyle, Coloring, Drawable, OffscreenRenderer, Scene, View, ViewerError, WHITE, palette_color,
-    push_axes, push_cells,
+    CellStyle, Coloring, Drawable, OffscreenRenderer, Orientation, Scene, StandardView, View, ViewerError,
+    WHITE, palette_color, push_axes, push_cells,
 };
 use support::{check_picture, cube_grid, cuboid, renderer};
 
@@ -177,7 +177,7 @@ fn stack(colors: &[[f32; 3]], opacity: f32) -> (Scene, View) {
             .unwrap();
     }
     let mut view = View { background: [0.0; 3], ..View::default() };
-    (view.camera.azimuth, view.camera.elevation) = (-std::f64::consts::FRAC_PI_2, 0.0);
+    view.camera.orientation = StandardView::Front.orientation();
     let view = view.fit(&scene, 1.0);
     (scene, view)
 }
@@ -253,7 +253,7 @@ fn check_width(line: Drawable, zoom: f64, scale: f32, expected: f64) {
     let mut scene = Scene::new();
     scene.push(line.color([0.0; 3])).unwrap();
     let mut view = View { background: WHITE, scale, samples: 4, ..View::default() };
-    (view.camera.azimuth, view.camera.elevation) = (0.3, 0.0);
+    view.camera.orientation = Orientation::turntable(0.3, 0.0);
     for _ in 0..2 {
         view.camera = view.camera.fit(&scene.bounds([1.0; 3]).unwrap(), 1.0);
         view.camera.distance /= zoom;

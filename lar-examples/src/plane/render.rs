@@ -4,9 +4,10 @@ use super::picture::{Color, Frame, Picture};
 use crate::CommandError;
 use lar_core::{Points, TriangleMesh};
 use lar_triangle::{TriangulateError, Triangulator};
-use lar_viewer::{Camera, Drawable, Image, OffscreenRenderer, Projection, Rgb, Scene, View, WHITE};
+use lar_viewer::{
+    Camera, Drawable, Image, OffscreenRenderer, Projection, Rgb, Scene, StandardView, View, WHITE,
+};
 use std::collections::BTreeMap;
-use std::f64::consts::FRAC_PI_2;
 
 impl Picture {
     /// Draws the picture in `size` pixels on white.
@@ -84,7 +85,7 @@ fn camera(frame: &Frame, height: u32) -> Camera {
     let camera = Camera { projection: Projection::Orthographic, ..Camera::default() };
     let distance = frame.per_pixel * f64::from(height) / (2.0 * (0.5 * camera.fov_y).tan());
     let [x, y] = [0, 1].map(|k| frame.lo[k] / 2.0 + frame.hi[k] / 2.0);
-    Camera { target: [x, y, 0.0], distance, azimuth: -FRAC_PI_2, elevation: FRAC_PI_2, ..camera }
+    Camera { target: [x, y, 0.0], distance, orientation: StandardView::Top.orientation(), ..camera }
 }
 
 /// Points one after the other, and the loops over them.

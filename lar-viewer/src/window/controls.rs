@@ -118,7 +118,7 @@ impl Controls {
         if moving || (shift && response.dragged_by(PointerButton::Primary)) {
             *camera = camera.pan(moved, height);
         } else if response.dragged_by(PointerButton::Primary) {
-            *camera = camera.orbit(moved);
+            camera.orientation = camera.orientation.orbit(moved);
         }
         if let Some(at) = response.hover_pos() {
             let wheel = f64::from(ui.input(|i| i.smooth_scroll_delta().y));
@@ -197,7 +197,8 @@ mod tests {
         let before = session.controls.view.camera;
         session.drag(PointerButton::Primary, pos2(300.0, 300.0), pos2(340.0, 280.0));
         let turned = session.controls.view.camera;
-        assert_eq!(turned, before.orbit([40.0, -20.0]));
+        assert_eq!(turned.orientation, before.orientation.orbit([40.0, -20.0]));
+        assert_eq!((turned.target, turned.distance), (before.target, before.distance));
         session.drag(PointerButton::Secondary, pos2(300.0, 300.0), pos2(340.0, 280.0));
         assert_eq!(session.controls.view.camera, turned.pan([40.0, -20.0], 600.0));
     }
