@@ -55,12 +55,13 @@ pub fn figures(
     let shapes = Shapes::new(arrangement)?;
     let faces = (0..).map(FaceId).take(arrangement.n_faces());
     let faces: Vec<CellShape> = faces.map(|f| shapes.face(f)).collect::<Result<_, _>>()?;
-    let figure = |panel, title, scene: Scene, explode, azimuth| {
+    let figure = |panel, title, scene: Scene, explode: [f32; 3], azimuth| {
         let [width, height] = size.map(f64::from);
         let orientation = Orientation::turntable(azimuth, ELEVATION);
         let camera = Camera { orientation, ..Camera::default() };
         let scale = (height / DESIGN_HEIGHT).clamp(0.5, 4.0) as f32;
-        let view = View { camera, explode, scale, ..View::default() }.fit(&scene, width / height.max(1.0));
+        let view = View { camera, explode: explode.into(), scale, ..View::default() }
+            .fit(&scene, width / height.max(1.0));
         Figure { panel, title, scene, view }
     };
     Ok([

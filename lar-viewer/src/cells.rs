@@ -52,7 +52,7 @@ impl Default for CellStyle {
 /// };
 /// let mut scene = Scene::new();
 /// push_cells(&mut scene, [face], &CellStyle::default())?;
-/// assert_eq!(scene.groups(), [[1.0, 1.0, 0.0]]);
+/// assert_eq!(scene.groups()[0].centroid, [1.0, 1.0, 0.0]);
 /// # Ok::<(), lar_viewer::ViewerError>(())
 /// ```
 ///
@@ -129,8 +129,8 @@ pub fn push_axes(scene: &mut Scene, length: f64) -> Result<(), ViewerError> {
     for (k, (color, name)) in AXIS_COLORS.into_iter().zip(["x axis", "y axis", "z axis"]).enumerate() {
         let along = |t: f64| std::array::from_fn(|i| if i == k { t * length } else { 0.0 });
         let shaft = [[0.0; 3], along(1.0 - HEAD[0])];
-        scene.push(Drawable::lines(name, [shaft]).color(color).width(3.0))?;
-        scene.push(Drawable::mesh(name, arrow_head(k, length)).color(color))?;
+        scene.push(Drawable::lines(name, [shaft]).color(color).width(3.0).unclipped())?;
+        scene.push(Drawable::mesh(name, arrow_head(k, length)).color(color).unclipped())?;
     }
     Ok(())
 }
@@ -196,7 +196,8 @@ mod tests {
         let style = CellStyle { opacity: 0.5, ..CellStyle::default() };
         let groups = push_cells(&mut scene, [cell.clone(), cell], &style).unwrap();
         assert_eq!(groups, [GroupId(0), GroupId(1)]);
-        let colors: Vec<_> = scene.drawables().iter().map(|d| (d.color, d.opacity)).collect();
+        let colors: Vec<_> =
+            scene.drawables().iter().map(|d| (d.appearance.color, d.appearance.opacity)).collect();
         let [first, second] = [0, 1].map(|i| (Coloring::Cyclic.color(i), 0.5));
         assert_eq!(colors, [first, (INK, 1.0), second, (INK, 1.0)]);
         assert_eq!(scene.drawables()[3].cell_ref(), Some(CellRef { dim: 2, index: 7 }));

@@ -86,6 +86,24 @@ pub enum ViewerError {
         /// How many there are.
         n_groups: usize,
     },
+    /// A group lies within too many others.
+    #[error("group {group} would be nested deeper than {limit} levels")]
+    GroupDepth {
+        /// Index that the group would have had.
+        group: usize,
+        /// Most levels.
+        limit: usize,
+    },
+    /// A drawable has cells for its triangles, segments or dots, but not one each.
+    #[error("drawable {drawable:?}: {n_cells} cells are given for {n_elements} elements")]
+    ElementCells {
+        /// Name of the drawable.
+        drawable: String,
+        /// Cells given.
+        n_cells: usize,
+        /// Triangles, segments or dots.
+        n_elements: usize,
+    },
     /// A camera or view parameter that no picture can be drawn with.
     #[error("view: {parameter} is {value}; it must be {expected}")]
     InvalidView {

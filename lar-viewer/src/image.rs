@@ -25,6 +25,16 @@ impl Image {
         Self { width, height, pixels }
     }
 
+    /// The same from colours that are multiplied by their opacity.
+    pub(crate) fn from_premultiplied(width: u32, height: u32, mut pixels: Vec<u8>) -> Self {
+        for pixel in pixels.chunks_exact_mut(4).filter(|p| !matches!(p[3], 0 | 255)) {
+            let opacity = u32::from(pixel[3]);
+            let divided = |c: u8| ((255 * u32::from(c) + opacity / 2) / opacity).min(255) as u8;
+            pixel[..3].iter_mut().for_each(|c| *c = divided(*c));
+        }
+        Self::new(width, height, pixels)
+    }
+
     /// Pixels in a row.
     #[must_use]
     pub fn width(&self) -> u32 {
@@ -100,6 +110,13 @@ mod tests {
         assert_eq!((info.width, info.height), (3, 2));
         assert_eq!(pixels, checker().pixels);
         assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1, "no temporary file is left");
+    }
+
+    #[test]
+    fn colours_do_not_depend_on_opacity() {
+        let image =
+            Image::from_premultiplied(4, 1, vec![50, 0, 100, 100, 0, 0, 0, 0, 9, 9, 9, 255, 9, 0, 0, 4]);
+        assert_eq!(image.pixels(), [128, 0, 255, 100, 0, 0, 0, 0, 9, 9, 9, 255, 255, 0, 0, 4]);
     }
 
     #[test]

@@ -18,12 +18,14 @@
 mod bounds;
 mod camera;
 mod cells;
+mod clip;
 mod error;
 mod gpu;
 mod image;
 mod offscreen;
 mod orientation;
 mod palette;
+mod pick;
 mod scene;
 mod view;
 #[cfg(feature = "window")]
@@ -32,12 +34,14 @@ mod window;
 pub use bounds::Bounds;
 pub use camera::{Camera, Projection};
 pub use cells::{CellShape, CellStyle, push_axes, push_cells};
+pub use clip::Clip;
 pub use error::ViewerError;
 pub use image::Image;
-pub use offscreen::OffscreenRenderer;
+pub use offscreen::{OffscreenRenderer, Prepared};
 pub use orientation::{Orientation, StandardView};
 pub use palette::{Coloring, INK, PALETTE, Rgb, SLATE, WHITE, palette_color};
-pub use scene::{CellRef, Drawable, GroupId, Scene};
+pub use pick::Hit;
+pub use scene::{Appearance, CellRef, Drawable, Explosion, Group, GroupId, LEVELS, Scene};
 pub use view::View;
 #[cfg(feature = "window")]
 pub use window::view;

@@ -1,6 +1,6 @@
 //! What is chosen anew for each picture: camera, explosion, opacity, background.
 
-use crate::{Camera, Rgb, SLATE, Scene, ViewerError};
+use crate::{Camera, Clip, Explosion, Rgb, SLATE, Scene, ViewerError};
 
 /// Samples per pixel and axis when nothing else is asked for.
 const DEFAULT_SAMPLES: u32 = 3;
@@ -17,14 +17,18 @@ const DEFAULT_SAMPLES: u32 = 3;
 pub struct View {
     /// Where the scene is seen from.
     pub camera: Camera,
-    /// Factors x, y, z of the explosion; 1 leaves the scene in place.
-    pub explode: [f32; 3],
+    /// How far the groups are pulled apart.
+    pub explode: Explosion,
+    /// What is cut away.
+    pub clip: Option<Clip>,
     /// Multiplies the opacity of all meshes; 1 leaves them as they are.
     pub opacity: f32,
     /// Whether cell edges are drawn.
     pub edges: bool,
     /// Colour behind everything.
     pub background: Rgb,
+    /// Opacity of the background: below 1 the picture is transparent where nothing is drawn.
+    pub background_opacity: f32,
     /// Pixels of the picture for one pixel of line width or point size: 2 for a picture to be shown at half size,
     /// the scale factor of the screen in a window.
     pub scale: f32,
@@ -38,10 +42,12 @@ impl Default for View {
     fn default() -> Self {
         Self {
             camera: Camera::default(),
-            explode: [1.0; 3],
+            explode: Explosion::default(),
+            clip: None,
             opacity: 1.0,
             edges: true,
             background: SLATE,
+            background_opacity: 1.0,
             scale: 1.0,
             samples: DEFAULT_SAMPLES,
         }
@@ -51,8 +57,8 @@ impl Default for View {
 impl View {
     /// The default three-quarter view of the exploded scene, filling a picture of this aspect (width / height).
     #[must_use]
-    pub fn fitted(scene: &Scene, explode: [f32; 3], aspect: f64) -> Self {
-        Self { explode, ..Self::default() }.fit(scene, aspect)
+    pub fn fitted(scene: &Scene, explode: impl Into<Explosion>, aspect: f64) -> Self {
+        Self { explode: explode.into(), ..Self::default() }.fit(scene, aspect)
     }
 
     /// The same view with the scene, as exploded, in the middle and filling the picture. An empty scene leaves the
@@ -72,10 +78,17 @@ impl View {
             let ok = low <= value && value <= high;
             if ok { Ok(()) } else { Err(ViewerError::InvalidView { parameter, value, expected }) }
         };
-        for s in self.explode {
+        for s in self.explode.factors.into_iter().flatten() {
             within("an explode factor", f64::from(s), -1e6, 1e6, "in ±1e6")?;
         }
+        for x in self.explode.about.unwrap_or_default() {
+            let expected = "at most 1e100 in magnitude";
+            within("a coordinate of the explosion's fixed point", x, -1e100, 1e100, expected)?;
+        }
+        self.clip.map_or(Ok(()), |clip| clip.validate())?;
         within("the opacity", f64::from(self.opacity), 0.0, 1.0, "in 0..=1")?;
+        let background = f64::from(self.background_opacity);
+        within("the background's opacity", background, 0.0, 1.0, "in 0..=1")?;
         within("the scale of lines", f64::from(self.scale), 0.01, 100.0, "in 0.01..=100")?;
         within("the number of samples", f64::from(self.samples), 1.0, 8.0, "in 1..=8")?;
         for c in self.background {
@@ -99,8 +112,15 @@ mod tests {
     fn senseless_views_are_refused() {
         let good = View::default();
         good.validate().unwrap();
-        check_refused(View { explode: [1.0, f32::NAN, 1.0], ..good }, "explode factor is NaN");
+        check_refused(View { explode: [1.0, f32::NAN, 1.0].into(), ..good }, "explode factor is NaN");
         check_refused(View { opacity: 1.5, ..good }, "opacity is 1.5");
+        let about = Explosion::default().about([0.0, f64::INFINITY, 0.0]);
+        check_refused(View { explode: about, ..good }, "fixed point is inf");
+        check_refused(
+            View { clip: Some(Clip::new([0.0; 3], 1.0)), ..good },
+            "length of the clip plane's normal is 0",
+        );
+        check_refused(View { background_opacity: -0.1, ..good }, "background's opacity is -0.1");
         check_refused(View { samples: 0, ..good }, "samples is 0");
         check_refused(View { scale: 0.0, ..good }, "scale of lines is 0");
         check_refused(View { background: [0.0, 2.0, 0.0], ..good }, "background channel is 2");

@@ -6,7 +6,7 @@ use lar_viewer::{
     CellStyle, Coloring, Drawable, OffscreenRenderer, Orientation, Scene, StandardView, View, ViewerError,
     WHITE, palette_color, push_axes, push_cells,
 };
-use support::{check_picture, cube_grid, cuboid, renderer};
+use support::{check_picture, cube_grid, cuboid, differing, renderer};
 
 const SIZE: [u32; 2] = [320, 240];
 const ASPECT: f64 = 4.0 / 3.0;
@@ -81,7 +81,7 @@ fn repeated_pictures_are_identical() {
 fn transparency_does_not_depend_on_the_order_of_drawing() {
     let Some(mut renderer) = renderer() else { return };
     let (scene, view) = exploded_grid();
-    let in_place = View { explode: [1.0; 3], ..view };
+    let in_place = View { explode: [1.0; 3].into(), ..view };
     let permuted = permuted_grid();
     for view in [view, in_place] {
         assert_eq!(draw(&mut renderer, &scene, &view), draw(&mut renderer, &permuted, &view));
@@ -144,7 +144,7 @@ fn explosion_is_the_same_as_moving_the_cells() {
     let cells = cube_grid(2).into_iter().map(|mut cell| {
         let middle =
             cell.edges.iter().flatten().fold([0.0; 3], |sum, p| [0, 1, 2].map(|k| sum[k] + p[k] / 24.0));
-        let shift = [0, 1, 2].map(|k| (f64::from(view.explode[k]) - 1.0) * (middle[k] - 1.0));
+        let shift = [0, 1, 2].map(|k| (f64::from(view.explode.factors[0][k]) - 1.0) * (middle[k] - 1.0));
         for p in
             cell.edges.as_flattened_mut().iter_mut().chain(cell.mesh.points.coords_mut().as_chunks_mut().0)
         {
@@ -153,16 +153,10 @@ fn explosion_is_the_same_as_moving_the_cells() {
         cell
     });
     push_cells(&mut moved, cells, &CellStyle { opacity: 0.35, ..CellStyle::default() }).unwrap();
-    let still = View { explode: [1.0; 3], ..view };
+    let still = View { explode: [1.0; 3].into(), ..view };
     let [a, b] = [draw(&mut renderer, &scene, &view), draw(&mut renderer, &moved, &still)];
     assert!(differing(&a, &b, 8) <= a.len() / 4 / 1000, "{} pixels differ", differing(&a, &b, 8));
     assert!(1000 < differing(&a, &draw(&mut renderer, &scene, &still), 8), "the explosion is seen");
-}
-
-/// Pixels that differ by more than `tolerance` in a channel.
-fn differing(a: &[u8], b: &[u8], tolerance: u8) -> usize {
-    let pixels = a.chunks_exact(4).zip(b.chunks_exact(4));
-    pixels.filter(|(a, b)| a.iter().zip(*b).any(|(x, y)| tolerance < x.abs_diff(*y))).count()
 }
 
 /// Squares of half opacity one behind the other, seen along y.
@@ -319,7 +313,7 @@ fn sizes_that_cannot_be_drawn_are_refused() {
         let error = renderer.render(&scene, &view, width, height).unwrap_err();
         assert!(matches!(error, ViewerError::ImageSize { .. }), "{error}");
     }
-    let bad = View { explode: [f32::NAN; 3], ..view };
+    let bad = View { explode: [f32::NAN; 3].into(), ..view };
     assert!(matches!(renderer.render(&scene, &bad, 9, 9), Err(ViewerError::InvalidView { .. })));
 }
 

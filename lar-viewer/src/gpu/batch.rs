@@ -1,9 +1,10 @@
 //! Scenes as flat arrays for the graphics card.
 //!
 //! All meshes go into one array of vertices, all segments into one of instances, all points into one of instances,
-//! the opaque ones first, so that a scene of any number of drawables takes at most six draw calls. What a drawable
-//! has in common (colour, opacity, centroid of its group) is a `Part`, which the shaders find by its index. So the
-//! number of groups is bounded by memory only, and an explosion changes three numbers of the frame.
+//! what is opaque first, so that a scene of any number of drawables takes few draw calls. What the elements of a
+//! drawable have in common (colour, opacity, group) is a part, which the shaders look up by its index. So the number of
+//! groups is bounded by memory only, an explosion changes a few numbers of the frame, and a change of looks the table of
+//! parts. A drawable is one part, or several where its elements do not fit into one buffer of the adapter.
 //!
 //! Coordinates are rounded to f32 relative to the centre and the radius of the scene. The three vertices of a
 //! triangle are stored in order of position: triangles that two cells share then get bit-identical depths.
@@ -14,28 +15,14 @@ use crate::scene::{Drawable, Extents, Shape, point3};
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 use lar_core::TriangleMesh;
+use std::ops::Range;
 
-/// Flag of a part whose mesh is lit; `LIT` in `common.wgsl`.
-const LIT: u32 = 1;
-/// Flag of a part that is cell edges; `CELL_EDGE` in `common.wgsl`.
-const CELL_EDGE: u32 = 2;
 /// Cell edges are no wider than this part of the cell's mean edge, so that a million cells are not a black heap.
 const EDGE_WIDTH: f32 = 0.12;
 /// Longer than anything in a scene, which has radius 1.
 const UNLIMITED: f32 = 1e6;
-/// Centroids are taken for no farther than this from the centre, in radii of the scene.
-const FARTHEST_CENTROID: f64 = 1e20;
 /// Radii below this are taken for points; the scene then keeps world units.
 const SMALLEST_RADIUS: f64 = 1e-90;
-
-/// Mirror of `Part` in `common.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub(crate) struct Part {
-    pub(crate) color: [f32; 4],
-    pub(crate) centroid: [f32; 3],
-    pub(crate) flags: u32,
-}
 
 /// Vertex of a triangle; the normal is in units of 1/32767.
 #[repr(C)]
@@ -67,17 +54,27 @@ pub(crate) struct Dot {
     pub(crate) size: f32,
 }
 
-/// Elements of which the first `n_opaque` are opaque.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Sorted<T> {
-    pub(crate) elements: Vec<T>,
-    pub(crate) n_opaque: usize,
-}
+/// Kinds of geometry, as indices of arrays.
+pub(crate) const MESH: usize = 0;
+pub(crate) const LINES: usize = 1;
+pub(crate) const POINTS: usize = 2;
+/// Number of kinds.
+pub(crate) const KINDS: usize = 3;
 
-impl<T> Default for Sorted<T> {
-    fn default() -> Self {
-        Self { elements: Vec::new(), n_opaque: 0 }
-    }
+/// Bytes of one element of each kind; a triangle is an element.
+pub(crate) const ELEMENT_BYTES: [usize; KINDS] =
+    [3 * size_of::<Vertex>(), size_of::<Line>(), size_of::<Dot>()];
+
+/// Where a part's elements are from and where they lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Span {
+    pub(crate) drawable: u32,
+    /// The first of its elements in the drawable.
+    pub(crate) element: u32,
+    pub(crate) kind: usize,
+    /// The same element in the array of its kind.
+    pub(crate) start: u32,
+    pub(crate) n: u32,
 }
 
 /// A scene as arrays.
@@ -85,77 +82,91 @@ impl<T> Default for Sorted<T> {
 pub(crate) struct Batch {
     pub(crate) placement: Placement,
     pub(crate) extents: Extents,
-    pub(crate) parts: Vec<Part>,
-    pub(crate) vertices: Sorted<Vertex>,
-    pub(crate) lines: Sorted<Line>,
-    pub(crate) dots: Sorted<Dot>,
+    /// One for each part.
+    pub(crate) spans: Vec<Span>,
+    /// Elements of each kind that one buffer holds: each array is cut after every so many.
+    pub(crate) capacity: [u32; KINDS],
+    pub(crate) triangles: Vec<[Vertex; 3]>,
+    pub(crate) lines: Vec<Line>,
+    pub(crate) dots: Vec<Dot>,
 }
 
 impl Batch {
-    /// The arrays of a scene. Drawables of opacity 0 and triangles without area are left out.
-    pub(crate) fn new(scene: &Scene) -> Self {
+    /// The arrays of a scene, for buffers of this many bytes at most. Triangles without area become points, which are
+    /// nowhere on the screen.
+    pub(crate) fn new(scene: &Scene, buffer_bytes: u64) -> Self {
         let extents = Extents::new(scene);
-        let radius = extents.bounds([1.0; 3]).map_or(0.0, |b| b.radius());
+        let radius = extents.bounds(&[1.0; 3].into()).map_or(0.0, |b| b.radius());
         let unit = if radius < SMALLEST_RADIUS { 1.0 } else { radius };
+        let capacity = |bytes: usize| (buffer_bytes / bytes as u64).clamp(1, u64::from(u32::MAX / 3)) as u32;
         let mut batch = Self {
             placement: Placement { center: extents.center, unit },
             extents,
-            parts: Vec::new(),
-            vertices: Sorted::default(),
-            lines: Sorted::default(),
-            dots: Sorted::default(),
+            spans: Vec::new(),
+            capacity: ELEMENT_BYTES.map(capacity),
+            triangles: Vec::new(),
+            lines: Vec::new(),
+            dots: Vec::new(),
         };
-        let (opaque, rest): (Vec<_>, Vec<_>) = scene.drawables().iter().partition(|d| 1.0 <= d.opacity);
-        opaque.into_iter().for_each(|d| batch.push(d, scene));
-        batch.vertices.n_opaque = batch.vertices.elements.len();
-        batch.lines.n_opaque = batch.lines.elements.len();
-        batch.dots.n_opaque = batch.dots.elements.len();
-        rest.into_iter().filter(|d| 0.0 < d.opacity).for_each(|d| batch.push(d, scene));
+        let numbered = || scene.drawables().iter().enumerate();
+        let is_opaque = |d: &Drawable| 1.0 <= d.appearance.opacity;
+        numbered().filter(|(_, d)| is_opaque(d)).for_each(|(i, d)| batch.push(i, d));
+        numbered().filter(|(_, d)| !is_opaque(d)).for_each(|(i, d)| batch.push(i, d));
         batch
     }
 
-    fn push(&mut self, drawable: &Drawable, scene: &Scene) {
-        let part = u32::try_from(self.parts.len()).expect("memory ends before 2^32 drawables");
-        let [r, g, b] = drawable.color;
-        let centroid = drawable.group.map_or([0.0; 3], |g| self.place_centroid(scene.groups()[g.0 as usize]));
-        let flags = match &drawable.shape {
-            Shape::Mesh { lit: true, .. } => LIT,
-            Shape::Lines { cell_edges: true, .. } => CELL_EDGE,
-            Shape::Mesh { .. } | Shape::Lines { .. } | Shape::Points { .. } => 0,
-        };
-        self.parts.push(Part { color: [r, g, b, drawable.opacity], centroid, flags });
+    fn push(&mut self, index: usize, drawable: &Drawable) {
         match &drawable.shape {
-            Shape::Mesh { mesh, .. } => self.push_mesh(part, mesh),
+            Shape::Mesh { mesh, .. } => self.push_mesh(index, mesh),
             Shape::Lines { segments, width, cell_edges } => {
-                let segments = segments.iter().map(|s| s.map(|p| self.place(p)));
-                let most = if *cell_edges { EDGE_WIDTH * mean_length(segments.clone()) } else { UNLIMITED };
-                let lines = segments.map(|[start, end]| Line { start, part, end, width: *width, most });
-                self.lines.elements.extend(lines.collect::<Vec<_>>());
+                let place = |s: &[[f64; 3]; 2]| s.map(|p| self.place(p));
+                let placed: Vec<[[f32; 3]; 2]> = segments.iter().map(place).collect();
+                let most = if *cell_edges { EDGE_WIDTH * mean_length(&placed) } else { UNLIMITED };
+                for (part, range) in self.new_parts(index, LINES, self.lines.len(), placed.len()) {
+                    let line = |&[start, end]: &[[f32; 3]; 2]| Line { start, part, end, width: *width, most };
+                    self.lines.extend(placed[range].iter().map(line));
+                }
             }
             Shape::Points { points, size } => {
-                for &center in points {
-                    self.dots.elements.push(Dot { center: self.place(center), part, size: *size });
+                for (part, range) in self.new_parts(index, POINTS, self.dots.len(), points.len()) {
+                    for &p in &points[range] {
+                        self.dots.push(Dot { center: self.place(p), part, size: *size });
+                    }
                 }
             }
         }
     }
 
-    fn push_mesh(&mut self, part: u32, mesh: &TriangleMesh) {
-        for triangle in &mesh.triangles {
-            let mut corners = triangle
-                .map(|v| self.placement.scene_from_world(point3(&mesh.points, v as usize)).map(|x| x as f32));
-            corners.sort_by(|a, b| {
-                a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])).then(a[2].total_cmp(&b[2]))
-            });
-            if let Some(normal) = normal(corners) {
-                self.vertices.elements.extend(corners.map(|position| Vertex { position, part, normal }));
+    fn push_mesh(&mut self, index: usize, mesh: &TriangleMesh) {
+        for (part, range) in self.new_parts(index, MESH, self.triangles.len(), mesh.triangles.len()) {
+            for triangle in &mesh.triangles[range] {
+                let mut corners = triangle.map(|v| self.place(point3(&mesh.points, v as usize)));
+                corners.sort_by(|a, b| {
+                    a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])).then(a[2].total_cmp(&b[2]))
+                });
+                let normal = normal(corners).unwrap_or_else(|| {
+                    corners = [corners[0]; 3];
+                    [0; 4]
+                });
+                self.triangles.push(corners.map(|position| Vertex { position, part, normal }));
             }
         }
     }
 
-    /// A centroid may lie anywhere, whatever the size of the scene, but its product with any explosion is to be finite.
-    fn place_centroid(&self, p: [f64; 3]) -> [f32; 3] {
-        self.placement.scene_from_world(p).map(|x| x.clamp(-FARTHEST_CENTROID, FARTHEST_CENTROID) as f32)
+    /// New parts for `n` elements of a drawable that are appended to an array of length `start`; the elements of each.
+    fn new_parts(&mut self, index: usize, kind: usize, start: usize, n: usize) -> Vec<(u32, Range<usize>)> {
+        let id = |i: usize| u32::try_from(i).expect("memory ends before 2^32 drawables or elements");
+        let capacity = self.capacity[kind] as usize;
+        let mut done = 0;
+        let mut parts = Vec::new();
+        while done < n {
+            let here = (n - done).min(capacity - (start + done) % capacity);
+            parts.push((id(self.spans.len()), done..done + here));
+            let [drawable, element, start] = [index, done, start + done].map(id);
+            self.spans.push(Span { drawable, element, kind, start, n: id(here) });
+            done += here;
+        }
+        parts
     }
 
     fn place(&self, p: [f64; 3]) -> [f32; 3] {
@@ -163,9 +174,9 @@ impl Batch {
     }
 }
 
-fn mean_length(segments: impl ExactSizeIterator<Item = [[f32; 3]; 2]>) -> f32 {
+fn mean_length(segments: &[[[f32; 3]; 2]]) -> f32 {
     let n = segments.len().max(1) as f32;
-    segments.map(|[a, b]| Vec3::from(a).distance(Vec3::from(b))).sum::<f32>() / n
+    segments.iter().map(|&[a, b]| Vec3::from(a).distance(Vec3::from(b))).sum::<f32>() / n
 }
 
 /// The unit normal in units of 1/32767; `None` when the triangle has no area.
@@ -187,22 +198,33 @@ mod tests {
         TriangleMesh { points, triangles: vec![[0, 1, 2], [0, 1, 3]] }
     }
 
+    const LARGE: u64 = 1 << 28;
+
     #[test]
-    fn opaque_comes_first_and_nothing_invisible_is_kept() {
+    fn opaque_comes_first_and_each_part_knows_where_it_is_from() {
         let mut scene = Scene::new();
         scene.push(Drawable::mesh("clear", triangle(0.0)).opacity(0.5)).unwrap();
-        scene.push(Drawable::mesh("gone", triangle(1.0)).opacity(0.0)).unwrap();
         scene.push(Drawable::mesh("solid", triangle(2.0))).unwrap();
         scene.push(Drawable::points("dot", [[0.0; 3]])).unwrap();
-        let batch = Batch::new(&scene);
-        assert_eq!(
-            (batch.vertices.elements.len(), batch.vertices.n_opaque),
-            (6, 3),
-            "flat triangles are dropped"
-        );
-        assert_eq!(batch.parts.iter().map(|p| p.color[3]).collect::<Vec<_>>(), [1.0, 1.0, 0.5]);
-        assert_eq!(batch.vertices.elements[3].part, 2);
-        assert_eq!(batch.dots.n_opaque, 1);
+        let batch = Batch::new(&scene, LARGE);
+        let span = |drawable, kind, start, n| Span { drawable, element: 0, kind, start, n };
+        assert_eq!(batch.spans, [span(1, MESH, 0, 2), span(2, POINTS, 0, 1), span(0, MESH, 2, 2)]);
+        let flat = batch.triangles[1].map(|v| v.position);
+        assert_eq!(flat, [flat[0]; 3], "a triangle without area is a point");
+        assert_eq!(batch.triangles[3][0].part, 2);
+    }
+
+    #[test]
+    fn parts_end_where_a_buffer_is_full() {
+        let mut scene = Scene::new();
+        let dots = |n: usize| Drawable::points("dots", (0..n).map(|i| [i as f64; 3]));
+        [2, 5, 0, 1].into_iter().for_each(|n| scene.push(dots(n)).unwrap());
+        let batch = Batch::new(&scene, 3 * size_of::<Dot>() as u64);
+        assert_eq!(batch.capacity[POINTS], 3);
+        let spans: Vec<_> = batch.spans.iter().map(|s| (s.drawable, s.element, s.start, s.n)).collect();
+        assert_eq!(spans, [(0, 0, 0, 2), (1, 0, 2, 1), (1, 1, 3, 3), (1, 4, 6, 1), (3, 0, 7, 1)]);
+        let parts: Vec<_> = batch.dots.iter().map(|d| d.part).collect();
+        assert_eq!(parts, [0, 0, 1, 2, 2, 2, 3, 4]);
     }
 
     /// A coordinate of any size that a scene takes.
@@ -223,13 +245,14 @@ mod tests {
             scene.push(Drawable::mesh("mesh", mesh).group(group)).unwrap();
             scene.push(Drawable::edges("edges", points.windows(2).map(|w| [w[0], w[1]])).group(group)).unwrap();
             scene.push(Drawable::points("points", points)).unwrap();
-            let batch = Batch::new(&scene);
-            let lines = batch.lines.elements.iter().flat_map(|l| [l.start, l.end]);
-            let positions = batch.vertices.elements.iter().map(|v| v.position).chain(lines);
-            for x in positions.chain(batch.dots.elements.iter().map(|d| d.center)).flatten() {
+            let batch = Batch::new(&scene, LARGE);
+            let lines = batch.lines.iter().flat_map(|l| [l.start, l.end]);
+            let positions = batch.triangles.iter().flatten().map(|v| v.position).chain(lines);
+            for x in positions.chain(batch.dots.iter().map(|d| d.center)).flatten() {
                 prop_assert!(x.abs() <= 1.01, "{x}");
             }
-            for x in batch.parts.iter().flat_map(|p| p.centroid) {
+            let groups = crate::gpu::parts::group_offsets(&scene, &batch.placement);
+            for x in groups.iter().flat_map(|g| g.0).flatten() {
                 prop_assert!((1e6 * x).is_finite(), "{x}");
             }
         }
@@ -239,7 +262,7 @@ mod tests {
     fn a_scene_far_from_the_origin_keeps_its_shape() {
         let mut scene = Scene::new();
         scene.push(Drawable::lines("far", [[[1e9, 0., 0.], [1e9 + 2.0, 0., 0.]]])).unwrap();
-        let line = Batch::new(&scene).lines.elements[0];
+        let line = Batch::new(&scene, LARGE).lines[0];
         assert_eq!((line.start, line.end), ([-1., 0., 0.], [1., 0., 0.]));
     }
 
@@ -248,7 +271,7 @@ mod tests {
         let vertices = |triangles: Vec<[u32; 3]>| {
             let mut scene = Scene::new();
             scene.push(Drawable::mesh("t", TriangleMesh { triangles, ..triangle(0.0) })).unwrap();
-            Batch::new(&scene).vertices.elements.iter().map(|v| v.position).collect::<Vec<_>>()
+            Batch::new(&scene, LARGE).triangles.iter().flatten().map(|v| v.position).collect::<Vec<_>>()
         };
         assert_eq!(vertices(vec![[0, 1, 2]]), vertices(vec![[2, 0, 1]]));
         assert_eq!(vertices(vec![[0, 1, 2]]), vertices(vec![[0, 2, 1]]));

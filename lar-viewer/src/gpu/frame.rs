@@ -1,16 +1,27 @@
 //! The parameters of a frame as the shaders read them.
 
-use crate::{Bounds, Projection, View};
+use crate::{Bounds, LEVELS, Projection, View};
 use bytemuck::{Pod, Zeroable};
 
-/// Mirror of `Frame` in `common.wgsl`, 192 bytes.
+/// Centroids, fixed points and planes are taken for no farther than this from the centre, in radii of the scene.
+const FARTHEST: f64 = 1e20;
+/// A plane that cuts nothing away: all heights over it are −1.
+const NO_CUT: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
+
+fn clamped(x: f64) -> f32 {
+    x.clamp(-FARTHEST, FARTHEST) as f32
+}
+
+/// Mirror of `Frame` in `common.wgsl`, 272 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub(crate) struct Frame {
     pub(crate) view_from_scene: [[f32; 4]; 4],
     pub(crate) clip_from_view: [[f32; 4]; 4],
-    pub(crate) explode: [f32; 3],
+    pub(crate) explode: [[f32; 4]; LEVELS],
+    pub(crate) about: [f32; 3],
     pub(crate) opacity: f32,
+    pub(crate) cut: [f32; 4],
     pub(crate) viewport: [f32; 2],
     pub(crate) samples_per_pixel: f32,
     pub(crate) sample_size: f32,
@@ -21,7 +32,7 @@ pub(crate) struct Frame {
     pub(crate) band_row: u32,
     pub(crate) band: u32,
     pub(crate) node_capacity: u32,
-    pub(crate) padding: u32,
+    pub(crate) cut_groups: u32,
 }
 
 /// Size of a picture and how finely it is sampled.
@@ -56,6 +67,16 @@ impl Placement {
     pub(crate) fn scene_from_world(&self, p: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|k| (p[k] - self.center[k]) / self.unit)
     }
+
+    /// A point that may lie anywhere, whatever the size of the scene, but whose product with any explosion is finite.
+    pub(crate) fn far_from_world(&self, p: [f64; 3]) -> [f32; 3] {
+        self.scene_from_world(p).map(clamped)
+    }
+
+    /// The fixed point of an explosion.
+    fn about(&self, point: Option<[f64; 3]>) -> [f32; 3] {
+        point.map_or([0.0; 3], |p| self.far_from_world(p))
+    }
 }
 
 impl Frame {
@@ -76,8 +97,10 @@ impl Frame {
         Self {
             view_from_scene: camera.view_from_world().as_mat4().to_cols_array_2d(),
             clip_from_view: camera.clip_from_view(width / height, near, far).as_mat4().to_cols_array_2d(),
-            explode: view.explode.map(|s| s - 1.0),
+            explode: view.explode.factors.map(|[x, y, z]| [x - 1.0, y - 1.0, z - 1.0, 0.0]),
+            about: placement.about(view.explode.about),
             opacity: view.opacity,
+            cut: view.clip.map_or(NO_CUT, |c| c.in_scene(placement.center, placement.unit).map(clamped)),
             viewport: [width as f32, height as f32],
             samples_per_pixel: raster.samples as f32 * raster.scale,
             sample_size: sample_size as f32,
@@ -88,7 +111,7 @@ impl Frame {
             band_row: 0,
             band: 0,
             node_capacity: 0,
-            padding: 0,
+            cut_groups: u32::from(view.clip.is_some_and(|c| c.whole_cells)),
         }
     }
 }

@@ -1,11 +1,12 @@
 //! The fixed part of the renderer: bind group layouts and pipelines, made once per device.
 //!
-//! Each kind of geometry has two pipelines: *opaque*, with a depth test, and *layer*, which stores fragments in the
-//! lists of the A-buffer. Three more steps work on the whole screen.
+//! Each kind of geometry has three pipelines: *opaque*, with a depth test, *layer*, which stores fragments in the lists of
+//! the A-buffer, and *id*, which tells what is seen where. Two more steps work on the whole screen.
 
-use super::batch::{Dot, Line, Vertex};
+use super::batch::{Dot, KINDS, Line, Vertex};
 use super::frame::Frame;
-use super::shaders;
+use super::scene::Way;
+use super::shaders::{self, Sources};
 use wgpu::{
     BindGroupLayout, Device, PipelineLayout, RenderPipeline, ShaderStages, TextureFormat, VertexAttribute,
 };
@@ -15,6 +16,8 @@ pub(crate) const COLOR: TextureFormat = TextureFormat::Rgba8Unorm;
 /// Depth of the opaque surface, as the layer shaders read it: the bits of an f32, since OpenGL can neither load from
 /// depth textures nor everywhere draw into textures of floats.
 pub(crate) const OPAQUE_DEPTH: TextureFormat = TextureFormat::R32Uint;
+/// What is seen: part plus one, and the index of the element in its buffer.
+pub(crate) const ID: TextureFormat = TextureFormat::Rg32Uint;
 /// Depth buffer of the opaque pass.
 pub(crate) const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 
@@ -28,10 +31,21 @@ const LINE_ATTRIBUTES: [VertexAttribute; 5] =
 const POINT_ATTRIBUTES: [VertexAttribute; 3] =
     wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Float32];
 
-/// The two ways of drawing one kind of geometry.
-pub(crate) struct Pair {
-    pub(crate) opaque: RenderPipeline,
-    pub(crate) layer: RenderPipeline,
+/// The ways of drawing one kind of geometry.
+pub(crate) struct Ways {
+    opaque: RenderPipeline,
+    layer: RenderPipeline,
+    id: RenderPipeline,
+}
+
+impl Ways {
+    pub(crate) fn pipeline(&self, way: Way) -> &RenderPipeline {
+        match way {
+            Way::Opaque => &self.opaque,
+            Way::Layer => &self.layer,
+            Way::Id => &self.id,
+        }
+    }
 }
 
 /// Layouts and pipelines.
@@ -39,9 +53,8 @@ pub(crate) struct Pipelines {
     pub(crate) frame_layout: BindGroupLayout,
     pub(crate) layers_layout: BindGroupLayout,
     pub(crate) samples_layout: BindGroupLayout,
-    pub(crate) mesh: Pair,
-    pub(crate) lines: Pair,
-    pub(crate) points: Pair,
+    /// In the order of the kinds of `batch`.
+    pub(crate) kinds: [Ways; KINDS],
     pub(crate) resolve: RenderPipeline,
     pub(crate) reduce: RenderPipeline,
 }
@@ -56,9 +69,7 @@ impl Pipelines {
         let reduce = pipeline_layout(device, &[&frame_layout, &samples_layout]);
         let maker = Maker { device, opaque: &opaque, layer: &layer };
         Self {
-            mesh: maker.mesh(),
-            lines: maker.lines(),
-            points: maker.points(),
+            kinds: [maker.mesh(), maker.lines(), maker.points()],
             resolve: whole_screen(device, shaders::RESOLVE, "resolve", &layer, Some(OVER)),
             reduce: whole_screen(device, shaders::REDUCE, "reduce", &reduce, None),
             frame_layout,
@@ -82,11 +93,14 @@ fn frame_layout(device: &Device) -> BindGroupLayout {
         },
         count: None,
     };
-    bind_group_layout(device, "frame", &[frame, storage_entry(1, ShaderStages::VERTEX, true)])
+    let table = |binding| wgpu::BindGroupLayoutEntry {
+        visibility: ShaderStages::VERTEX,
+        ..texture_entry(binding, wgpu::TextureSampleType::Uint)
+    };
+    bind_group_layout(device, "frame", &[frame, table(1), table(2)])
 }
 
 fn layers_layout(device: &Device) -> BindGroupLayout {
-    let writable = |binding| storage_entry(binding, ShaderStages::FRAGMENT, false);
     bind_group_layout(
         device,
         "layers",
@@ -94,10 +108,10 @@ fn layers_layout(device: &Device) -> BindGroupLayout {
     )
 }
 
-fn storage_entry(binding: u32, visibility: ShaderStages, read_only: bool) -> wgpu::BindGroupLayoutEntry {
-    let ty = wgpu::BufferBindingType::Storage { read_only };
+fn writable(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    let ty = wgpu::BufferBindingType::Storage { read_only: false };
     let ty = wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
-    wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None }
+    wgpu::BindGroupLayoutEntry { binding, visibility: ShaderStages::FRAGMENT, ty, count: None }
 }
 
 /// What the shader that averages samples reads.
@@ -168,7 +182,7 @@ fn whole_screen(
 
 /// One kind of geometry: entry points, topology, and the layout of what is read per vertex or instance.
 struct Kind<'a> {
-    module: &'a wgpu::ShaderModule,
+    sources: &'a Sources,
     name: &'a str,
     topology: wgpu::PrimitiveTopology,
     buffer: wgpu::VertexBufferLayout<'a>,
@@ -181,9 +195,9 @@ struct Maker<'a> {
 }
 
 impl Maker<'_> {
-    fn mesh(&self) -> Pair {
-        self.pair(&Kind {
-            module: &shader(self.device, shaders::MESH),
+    fn mesh(&self) -> Ways {
+        self.ways(&Kind {
+            sources: &shaders::MESH,
             name: "mesh",
             topology: wgpu::PrimitiveTopology::TriangleList,
             buffer: wgpu::VertexBufferLayout {
@@ -194,9 +208,9 @@ impl Maker<'_> {
         })
     }
 
-    fn lines(&self) -> Pair {
-        self.pair(&Kind {
-            module: &shader(self.device, shaders::LINES),
+    fn lines(&self) -> Ways {
+        self.ways(&Kind {
+            sources: &shaders::LINES,
             name: "line",
             topology: wgpu::PrimitiveTopology::TriangleStrip,
             buffer: wgpu::VertexBufferLayout {
@@ -207,9 +221,9 @@ impl Maker<'_> {
         })
     }
 
-    fn points(&self) -> Pair {
-        self.pair(&Kind {
-            module: &shader(self.device, shaders::POINTS),
+    fn points(&self) -> Ways {
+        self.ways(&Kind {
+            sources: &shaders::POINTS,
             name: "point",
             topology: wgpu::PrimitiveTopology::TriangleStrip,
             buffer: wgpu::VertexBufferLayout {
@@ -220,7 +234,7 @@ impl Maker<'_> {
         })
     }
 
-    fn pair(&self, kind: &Kind<'_>) -> Pair {
+    fn ways(&self, kind: &Kind<'_>) -> Ways {
         let target = |format, write_mask| Some(wgpu::ColorTargetState { format, blend: None, write_mask });
         let depth = wgpu::DepthStencilState {
             format: DEPTH,
@@ -231,26 +245,31 @@ impl Maker<'_> {
         };
         let opaque = [target(COLOR, wgpu::ColorWrites::ALL), target(OPAQUE_DEPTH, wgpu::ColorWrites::ALL)];
         let layer = [target(COLOR, wgpu::ColorWrites::empty())];
-        Pair {
-            opaque: self.pipeline(kind, "opaque", self.opaque, &opaque, Some(depth)),
-            layer: self.pipeline(kind, "layer", self.layer, &layer, None),
+        let id = [target(ID, wgpu::ColorWrites::ALL)];
+        let solid = shader(self.device, kind.sources.solid);
+        let layered = shader(self.device, kind.sources.layer);
+        Ways {
+            opaque: self.pipeline(kind, &solid, "opaque", self.opaque, &opaque, Some(depth.clone())),
+            layer: self.pipeline(kind, &layered, "layer", self.layer, &layer, None),
+            id: self.pipeline(kind, &solid, "id", self.opaque, &id, Some(depth)),
         }
     }
 
     fn pipeline(
         &self,
         kind: &Kind<'_>,
+        module: &wgpu::ShaderModule,
         way: &str,
         layout: &PipelineLayout,
         targets: &[Option<wgpu::ColorTargetState>],
         depth_stencil: Option<wgpu::DepthStencilState>,
     ) -> RenderPipeline {
-        let (vertex, fragment) = (format!("{}_vertex", kind.name), format!("{}_{way}", kind.name));
+        let (vertex, fragment) = (format!("{}_{way}_vertex", kind.name), format!("{}_{way}", kind.name));
         self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(&fragment),
             layout: Some(layout),
             vertex: wgpu::VertexState {
-                module: kind.module,
+                module,
                 entry_point: Some(&vertex),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
                 buffers: &[Some(kind.buffer.clone())],
@@ -259,7 +278,7 @@ impl Maker<'_> {
             depth_stencil,
             multisample: wgpu::MultisampleState::default(),
             fragment: Some(wgpu::FragmentState {
-                module: kind.module,
+                module,
                 entry_point: Some(&fragment),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
                 targets,

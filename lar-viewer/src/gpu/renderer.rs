@@ -14,70 +14,28 @@
 //! against 40 ms for a hundred thousand (llvmpipe, two cores; `examples/frame_times.rs` measures again). Three by
 //! three, the default, takes 30 and 60 ms, and 200 and 300 ms when everything is transparent.
 
-use super::batch::{Batch, Sorted};
+use super::batch;
 use super::context::Context;
-use super::frame::{Frame, Placement, Raster};
+use super::frame::{Frame, Raster};
 use super::layers::{Band, DEFAULT_MEMORY, Layers};
 use super::pipelines::Pipelines;
+use super::scene::{Run, SceneBuffers, Way};
 use super::targets::Targets;
-use crate::scene::Extents;
-use crate::{Image, Scene, View, ViewerError};
-use wgpu::{Buffer, BufferUsages, CommandEncoder, LoadOp, Operations, RenderPass, StoreOp};
+use crate::{Image, View, ViewerError};
+use wgpu::{BufferUsages, CommandEncoder, LoadOp, Operations, RenderPass, StoreOp};
 
-/// Distance of the frames of two bands in the uniform buffer: the largest alignment that any adapter asks for.
-const FRAME_STRIDE: usize = 256;
+/// Distance of the frames of two bands in the uniform buffer: a multiple of 256, the largest alignment that any adapter
+/// asks for.
+const FRAME_STRIDE: usize = 512;
 /// The bits of the depth 1.
 const FARTHEST: wgpu::Color = wgpu::Color { r: 0x3f80_0000_u32 as f64, g: 0.0, b: 0.0, a: 0.0 };
 /// Samples in one frame at most: their textures take 12 bytes each.
 const SAMPLE_LIMIT: u64 = 1 << 26;
 
-/// A scene on the graphics card.
-pub(crate) struct SceneBuffers {
-    placement: Placement,
-    extents: Extents,
-    parts: Buffer,
-    vertices: Uploaded,
-    lines: Uploaded,
-    points: Uploaded,
-}
-
-/// Vertices or instances in a buffer, the first `n_opaque` opaque.
-struct Uploaded {
-    buffer: Buffer,
-    n_opaque: u32,
-    n: u32,
-}
-
-impl SceneBuffers {
-    pub(crate) fn new(context: &Context, scene: &Scene) -> Result<Self, ViewerError> {
-        let batch = Batch::new(scene);
-        Ok(Self {
-            parts: context.upload("drawables", bytemuck::cast_slice(&batch.parts), BufferUsages::STORAGE)?,
-            vertices: Uploaded::new(context, "triangles", &batch.vertices)?,
-            lines: Uploaded::new(context, "segments", &batch.lines)?,
-            points: Uploaded::new(context, "points", &batch.dots)?,
-            placement: batch.placement,
-            extents: batch.extents,
-        })
-    }
-}
-
-impl Uploaded {
-    fn new<T: bytemuck::Pod>(
-        context: &Context,
-        what: &'static str,
-        sorted: &Sorted<T>,
-    ) -> Result<Self, ViewerError> {
-        let buffer = context.upload(what, bytemuck::cast_slice(&sorted.elements), BufferUsages::VERTEX)?;
-        // An upload that passed the limit of buffers has fewer than 2^32 elements on every backend.
-        Ok(Self { buffer, n_opaque: sorted.n_opaque as u32, n: sorted.elements.len() as u32 })
-    }
-}
-
 /// Draws scenes into textures.
 pub(crate) struct Renderer {
     pub(crate) context: Context,
-    pipelines: Pipelines,
+    pub(super) pipelines: Pipelines,
     targets: Option<Targets>,
     layers: Option<Layers>,
     /// Bytes that stored layers may take.
@@ -108,9 +66,10 @@ impl Renderer {
                 Targets::new(&self.context, &self.pipelines, raster)
             }
         };
-        let frame = Frame::new(view, &raster, &scene.placement, scene.extents.bounds(view.explode));
-        let draw = Draw { renderer: self, scene, view, frame, targets: &targets };
-        let layers = if draw.has_layers() { draw.with_layers()? } else { draw.without_layers()? };
+        let frame = Frame::new(view, &raster, &scene.placement, scene.extents.bounds(&view.explode));
+        let [opaque, layer] = [Way::Opaque, Way::Layer].map(|way| scene.runs(way, view.opacity));
+        let draw = Draw { renderer: self, scene, view, frame, targets: &targets, opaque, layer };
+        let layers = if draw.layer.is_empty() { draw.without_layers()? } else { draw.with_layers()? };
         self.layers = layers.or(self.layers.take());
         Ok(self.targets.insert(targets))
     }
@@ -147,11 +106,11 @@ impl Renderer {
         let rows = |bytes: &[u8]| {
             bytes.chunks_exact(padded as usize).flat_map(|row| &row[..row_bytes as usize]).copied().collect()
         };
-        Ok(Image::new(width, height, self.context.read(&buffer, rows)?))
+        Ok(Image::from_premultiplied(width, height, self.context.read(&buffer, rows)?))
     }
 
     /// The size in samples, the finest that the adapter allows up to what the view asks for.
-    fn raster(&self, view: &View, width: u32, height: u32) -> Result<Raster, ViewerError> {
+    pub(super) fn raster(&self, view: &View, width: u32, height: u32) -> Result<Raster, ViewerError> {
         let limit = self.context.limits.max_texture_dimension_2d;
         if !(1..=limit).contains(&width) || !(1..=limit).contains(&height) {
             return Err(ViewerError::ImageSize {
@@ -177,21 +136,11 @@ struct Draw<'a> {
     view: &'a View,
     frame: Frame,
     targets: &'a Targets,
+    opaque: Vec<Run>,
+    layer: Vec<Run>,
 }
 
 impl Draw<'_> {
-    /// Triangles that go through the depth test; none when the view makes all meshes transparent.
-    fn n_opaque_vertices(&self) -> u32 {
-        if self.view.opacity < 1.0 { 0 } else { self.scene.vertices.n_opaque }
-    }
-
-    fn has_layers(&self) -> bool {
-        let Self { scene, .. } = self;
-        self.n_opaque_vertices() < scene.vertices.n
-            || scene.lines.n_opaque < scene.lines.n
-            || scene.points.n_opaque < scene.points.n
-    }
-
     fn without_layers(&self) -> Result<Option<Layers>, ViewerError> {
         let group = self.frame_group(&[Band { row: 0, rows: 0 }], 0)?;
         let mut encoder = self.encoder();
@@ -242,37 +191,26 @@ impl Draw<'_> {
         self.renderer.context.check()
     }
 
-    /// The parameters of the frame, once for each band, and the parts of the scene.
+    /// The parameters of the frame, once for each band, and the tables of the scene.
     fn frame_group(&self, bands: &[Band], node_capacity: u32) -> Result<wgpu::BindGroup, ViewerError> {
-        let Renderer { context, pipelines, .. } = self.renderer;
-        let mut bytes = vec![0; FRAME_STRIDE * bands.len()];
-        for (i, band) in bands.iter().enumerate() {
-            let frame = Frame { band_row: band.row, band: i as u32, node_capacity, ..self.frame };
-            bytes[i * FRAME_STRIDE..][..size_of::<Frame>()].copy_from_slice(bytemuck::bytes_of(&frame));
-        }
-        let frames = context.upload("frame", &bytes, BufferUsages::UNIFORM)?;
-        let frame = wgpu::BufferBinding {
-            buffer: &frames,
-            offset: 0,
-            size: wgpu::BufferSize::new(size_of::<Frame>() as u64),
+        let of_band = |(i, band): (usize, &Band)| Frame {
+            band_row: band.row,
+            band: i as u32,
+            node_capacity,
+            ..self.frame
         };
-        Ok(context.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("frame"),
-            layout: &pipelines.frame_layout,
-            entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::Buffer(frame) },
-                wgpu::BindGroupEntry { binding: 1, resource: self.scene.parts.as_entire_binding() },
-            ],
-        }))
+        let frames: Vec<Frame> = bands.iter().enumerate().map(of_band).collect();
+        frame_group(&self.renderer.context, &self.renderer.pipelines, self.scene, &frames)
     }
 
     fn opaque_pass(&self, encoder: &mut CommandEncoder, group: &wgpu::BindGroup) {
-        let [r, g, b] = self.view.background.map(f64::from);
+        let a = f64::from(self.view.background_opacity);
+        let [r, g, b] = self.view.background.map(|c| a * f64::from(c));
         let depth_ops = Operations { load: LoadOp::Clear(1.0), store: StoreOp::Discard };
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("opaque"),
             color_attachments: &[
-                attachment(&self.targets.color, LoadOp::Clear(wgpu::Color { r, g, b, a: 1.0 })),
+                attachment(&self.targets.color, LoadOp::Clear(wgpu::Color { r, g, b, a })),
                 attachment(&self.targets.opaque_depth, LoadOp::Clear(FARTHEST)),
             ],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
@@ -283,11 +221,7 @@ impl Draw<'_> {
             ..Default::default()
         });
         pass.set_bind_group(0, group, &[0]);
-        let Pipelines { mesh, lines, points, .. } = &self.renderer.pipelines;
-        let SceneBuffers { vertices, lines: segments, points: dots, .. } = self.scene;
-        draw_vertices(&mut pass, &mesh.opaque, vertices, 0..self.n_opaque_vertices());
-        draw_instances(&mut pass, &lines.opaque, segments, 0..segments.n_opaque);
-        draw_instances(&mut pass, &points.opaque, dots, 0..dots.n_opaque);
+        draw_runs(&mut pass, &self.renderer.pipelines, self.scene, Way::Opaque, &self.opaque);
     }
 
     fn layer_pass(
@@ -301,11 +235,7 @@ impl Draw<'_> {
         let mut pass = self.band_pass(encoder, "layers", band);
         pass.set_bind_group(0, group, &[offset]);
         pass.set_bind_group(1, &layers.group, &[]);
-        let Pipelines { mesh, lines, points, .. } = &self.renderer.pipelines;
-        let SceneBuffers { vertices, lines: segments, points: dots, .. } = self.scene;
-        draw_vertices(&mut pass, &mesh.layer, vertices, self.n_opaque_vertices()..vertices.n);
-        draw_instances(&mut pass, &lines.layer, segments, segments.n_opaque..segments.n);
-        draw_instances(&mut pass, &points.layer, dots, dots.n_opaque..dots.n);
+        draw_runs(&mut pass, &self.renderer.pipelines, self.scene, Way::Layer, &self.layer);
     }
 
     fn resolve_pass(
@@ -346,7 +276,7 @@ impl Draw<'_> {
     }
 }
 
-fn attachment(
+pub(super) fn attachment(
     view: &wgpu::TextureView,
     load: LoadOp<wgpu::Color>,
 ) -> Option<wgpu::RenderPassColorAttachment<'_>> {
@@ -354,28 +284,44 @@ fn attachment(
     Some(wgpu::RenderPassColorAttachment { view, depth_slice: None, resolve_target: None, ops })
 }
 
-fn draw_vertices(
-    pass: &mut RenderPass<'_>,
-    pipeline: &wgpu::RenderPipeline,
-    uploaded: &Uploaded,
-    range: std::ops::Range<u32>,
-) {
-    if !range.is_empty() {
-        pass.set_pipeline(pipeline);
-        pass.set_vertex_buffer(0, uploaded.buffer.slice(..));
-        pass.draw(range, 0..1);
+/// The group of these frames, at multiples of [`FRAME_STRIDE`], and of the tables of the scene.
+pub(super) fn frame_group(
+    context: &Context,
+    pipelines: &Pipelines,
+    scene: &SceneBuffers,
+    frames: &[Frame],
+) -> Result<wgpu::BindGroup, ViewerError> {
+    let mut bytes = vec![0; FRAME_STRIDE * frames.len()];
+    for (slot, frame) in bytes.chunks_exact_mut(FRAME_STRIDE).zip(frames) {
+        slot[..size_of::<Frame>()].copy_from_slice(bytemuck::bytes_of(frame));
     }
+    let buffer = context.upload("frame", &bytes, BufferUsages::UNIFORM)?;
+    let size = wgpu::BufferSize::new(size_of::<Frame>() as u64);
+    let frame = wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer: &buffer, offset: 0, size });
+    let table = wgpu::BindingResource::TextureView;
+    let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
+    Ok(context.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("frame"),
+        layout: &pipelines.frame_layout,
+        entries: &[entry(0, frame), entry(1, table(&scene.parts.view)), entry(2, table(&scene.groups.view))],
+    }))
 }
 
-fn draw_instances(
+/// Draws stretches of elements: triangles by their vertices, all else as four corners an instance.
+pub(super) fn draw_runs(
     pass: &mut RenderPass<'_>,
-    pipeline: &wgpu::RenderPipeline,
-    uploaded: &Uploaded,
-    range: std::ops::Range<u32>,
+    pipelines: &Pipelines,
+    scene: &SceneBuffers,
+    way: Way,
+    runs: &[Run],
 ) {
-    if !range.is_empty() {
-        pass.set_pipeline(pipeline);
-        pass.set_vertex_buffer(0, uploaded.buffer.slice(..));
-        pass.draw(0..4, range);
+    for Run { kind, chunk, elements } in runs {
+        pass.set_pipeline(pipelines.kinds[*kind].pipeline(way));
+        pass.set_vertex_buffer(0, scene.chunks[*kind][*chunk].slice(..));
+        if *kind == batch::MESH {
+            pass.draw(3 * elements.start..3 * elements.end, 0..1);
+        } else {
+            pass.draw(0..4, elements.clone());
+        }
     }
 }

@@ -1,39 +1,43 @@
 //! The shader modules, put together from the files in `src/shaders`.
+//!
+//! Each kind of geometry has a module for what is drawn with a depth test and one that stores layers.
+
+/// The pieces of a module, one after the other.
+macro_rules! module {
+    ($($piece:literal),*) => { concat!($(include_str!(concat!("../shaders/", $piece, ".wgsl"))),*) };
+}
+
+/// The two modules of one kind of geometry.
+pub(crate) struct Sources {
+    /// Opaque pass and id pass.
+    pub(crate) solid: &'static str,
+    /// Layers in lists.
+    pub(crate) layer: &'static str,
+}
 
 /// Triangles.
-pub(crate) const MESH: &str = concat!(
-    include_str!("../shaders/common.wgsl"),
-    include_str!("../shaders/layers.wgsl"),
-    include_str!("../shaders/store.wgsl"),
-    include_str!("../shaders/mesh.wgsl")
-);
+pub(crate) const MESH: Sources = Sources {
+    solid: module!("common", "mesh"),
+    layer: module!("common", "mesh", "layers", "store", "mesh_layer"),
+};
 
 /// Segments.
-pub(crate) const LINES: &str = concat!(
-    include_str!("../shaders/common.wgsl"),
-    include_str!("../shaders/layers.wgsl"),
-    include_str!("../shaders/store.wgsl"),
-    include_str!("../shaders/lines.wgsl")
-);
+pub(crate) const LINES: Sources = Sources {
+    solid: module!("common", "lines"),
+    layer: module!("common", "lines", "layers", "store", "lines_layer"),
+};
 
 /// Dots.
-pub(crate) const POINTS: &str = concat!(
-    include_str!("../shaders/common.wgsl"),
-    include_str!("../shaders/layers.wgsl"),
-    include_str!("../shaders/store.wgsl"),
-    include_str!("../shaders/points.wgsl")
-);
+pub(crate) const POINTS: Sources = Sources {
+    solid: module!("common", "points"),
+    layer: module!("common", "points", "layers", "store", "points_layer"),
+};
 
 /// Blending of the stored layers.
-pub(crate) const RESOLVE: &str = concat!(
-    include_str!("../shaders/common.wgsl"),
-    include_str!("../shaders/layers.wgsl"),
-    include_str!("../shaders/resolve.wgsl")
-);
+pub(crate) const RESOLVE: &str = module!("common", "layers", "resolve");
 
 /// Averaging of samples.
-pub(crate) const REDUCE: &str =
-    concat!(include_str!("../shaders/common.wgsl"), include_str!("../shaders/reduce.wgsl"));
+pub(crate) const REDUCE: &str = module!("common", "reduce");
 
 #[cfg(test)]
 mod tests {
@@ -45,20 +49,23 @@ mod tests {
     }
 
     #[track_caller]
-    fn check_entry_points(source: &str, expected: &[&str]) {
+    fn check_entry_points<S: AsRef<str>>(source: &str, expected: &[S]) {
         let module = module(source);
         Validator::new(ValidationFlags::all(), Capabilities::empty())
             .validate(&module)
             .unwrap_or_else(|e| panic!("{}", e.emit_to_string(source)));
         let names: Vec<_> = module.entry_points.iter().map(|e| e.name.as_str()).collect();
-        assert_eq!(names, expected);
+        assert_eq!(names, expected.iter().map(AsRef::as_ref).collect::<Vec<_>>());
     }
 
     #[test]
     fn every_shader_is_valid_without_optional_capabilities() {
-        check_entry_points(MESH, &["mesh_vertex", "mesh_opaque", "mesh_layer"]);
-        check_entry_points(LINES, &["line_vertex", "line_opaque", "line_layer"]);
-        check_entry_points(POINTS, &["point_vertex", "point_opaque", "point_layer"]);
+        for (sources, name) in [(MESH, "mesh"), (LINES, "line"), (POINTS, "point")] {
+            let vertex = ["opaque", "layer", "id"].map(|way| format!("{name}_{way}_vertex"));
+            let solid = [format!("{name}_opaque"), format!("{name}_id")];
+            check_entry_points(sources.solid, &[&vertex[..], &solid].concat());
+            check_entry_points(sources.layer, &[&vertex[..], &solid, &[format!("{name}_layer")]].concat());
+        }
         check_entry_points(RESOLVE, &["whole_screen", "resolve"]);
         check_entry_points(REDUCE, &["whole_screen", "reduce"]);
     }
@@ -80,18 +87,18 @@ mod tests {
 
     #[test]
     fn mirror_structs_have_the_layout_of_the_shaders() {
-        use crate::gpu::batch::Part;
         use crate::gpu::frame::Frame;
-        check_mirror!(Part, "Part", MESH, [color, centroid, flags]);
         check_mirror!(
             Frame,
             "Frame",
-            MESH,
+            MESH.solid,
             [
                 view_from_scene,
                 clip_from_view,
                 explode,
+                about,
                 opacity,
+                cut,
                 viewport,
                 samples_per_pixel,
                 sample_size,
@@ -102,9 +109,28 @@ mod tests {
                 band_row,
                 band,
                 node_capacity,
-                padding
+                cut_groups
             ]
         );
         assert_eq!(layout(RESOLVE, "Node").1, crate::gpu::layers::NODE_BYTES);
+    }
+
+    /// The value of a `u32` constant of a module.
+    fn constant(source: &str, name: &str) -> u32 {
+        let line = source.lines().find_map(|l| l.strip_prefix(&format!("const {name}: u32 = ")));
+        let value = line.and_then(|l| l.split_once("u;")).expect("the constant").0;
+        let hexadecimal = value.strip_prefix("0x").map(|digits| u32::from_str_radix(digits, 16));
+        hexadecimal.unwrap_or_else(|| value.parse()).expect("a number")
+    }
+
+    #[test]
+    fn constants_are_those_of_the_shaders() {
+        use crate::gpu::{parts, table};
+        assert_eq!(constant(MESH.solid, "LIT"), parts::LIT);
+        assert_eq!(constant(MESH.solid, "CELL_EDGE"), parts::CELL_EDGE);
+        assert_eq!(constant(MESH.solid, "HIGHLIGHTED"), parts::HIGHLIGHTED);
+        assert_eq!(constant(MESH.solid, "CLIPPED"), parts::CLIPPED);
+        assert_eq!(constant(MESH.solid, "NO_GROUP"), parts::NO_GROUP);
+        assert_eq!(constant(MESH.solid, "TABLE_WIDTH"), table::WIDTH);
     }
 }

@@ -39,7 +39,7 @@ impl Targets {
     }
 }
 
-fn texture(
+pub(super) fn texture(
     context: &Context,
     [width, height]: [u32; 2],
     format: wgpu::TextureFormat,
@@ -57,6 +57,6 @@ fn texture(
     })
 }
 
-fn view(texture: &Texture) -> TextureView {
+pub(super) fn view(texture: &Texture) -> TextureView {
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }

@@ -15,6 +15,7 @@ struct LineFragment {
     @location(0) place: vec2<f32>,                         // samples along the segment from its start, and across
     @location(1) @interpolate(flat) extent: vec2<f32>,     // its length and half its width, in samples
     @location(2) @interpolate(flat) color: vec4<f32>,
+    @location(3) @interpolate(flat) id: vec2<u32>,         // part + 1, segment
 }
 
 // The end moved along the segment to the near plane when it lies behind it.
@@ -26,19 +27,32 @@ fn clipped(end: vec3<f32>, other: vec3<f32>) -> vec3<f32> {
     return mix(end, other, (plane - end.z) / (other.z - end.z));
 }
 
-@vertex
-fn line_vertex(@builtin(vertex_index) corner: u32, line: LineInstance) -> LineFragment {
+// The end moved along the segment to the clip plane when it is cut away; heights are over that plane.
+fn cut(end: vec3<f32>, other: vec3<f32>, height: f32, other_height: f32) -> vec3<f32> {
+    if height <= 0.0 {
+        return end;
+    }
+    return mix(end, other, height / (height - other_height));
+}
+
+fn line_vertex(corner: u32, index: u32, line: LineInstance, way: u32) -> LineFragment {
     var out: LineFragment;
-    let part = parts[line.part];
-    let start = view_position(line.start, part.centroid);
-    let end = view_position(line.end, part.centroid);
-    if is_hidden(part.flags) || min(start.z, end.z) > -frame.near {
-        out.position = NOWHERE;
+    out.position = NOWHERE;
+    let part = part_at(line.part);
+    let heights = vec2<f32>(height_over_cut(line.start, part), height_over_cut(line.end, part));
+    if !is_drawn(part, part.color.a, way) || min(heights.x, heights.y) > 0.0 {
+        return out;
+    }
+    let moved = displacement(part.group);
+    let start = view_position(cut(line.start, line.end, heights.x, heights.y) + moved);
+    let end = view_position(cut(line.end, line.start, heights.y, heights.x) + moved);
+    if min(start.z, end.z) > -frame.near {
         return out;
     }
     let sample = frame.sample_size * select(1.0, -0.5 * (start.z + end.z), frame.perspective == 1u);
     let most = line.most / max(abs(sample), 1e-20);
-    let half_width = 0.5 * min(line.width * frame.samples_per_pixel, most);
+    let wider = select(1.0, 2.0, (part.flags & HIGHLIGHTED) != 0u);
+    let half_width = 0.5 * wider * min(line.width * frame.samples_per_pixel, most);
     let bias = 2.0 * half_width;
     let a = screen_position(towards_eye(clipped(start, end), bias));
     let b = screen_position(towards_eye(clipped(end, start), bias));
@@ -57,7 +71,35 @@ fn line_vertex(@builtin(vertex_index) corner: u32, line: LineInstance) -> LineFr
     out.place = vec2<f32>(out_along + select(0.0, length, at_end), out_across);
     out.extent = vec2<f32>(length, half_width);
     out.color = part.color;
+    out.id = vec2<u32>(line.part + 1u, index);
     return out;
+}
+
+@vertex
+fn line_opaque_vertex(
+    @builtin(vertex_index) corner: u32,
+    @builtin(instance_index) index: u32,
+    line: LineInstance,
+) -> LineFragment {
+    return line_vertex(corner, index, line, OPAQUE_WAY);
+}
+
+@vertex
+fn line_layer_vertex(
+    @builtin(vertex_index) corner: u32,
+    @builtin(instance_index) index: u32,
+    line: LineInstance,
+) -> LineFragment {
+    return line_vertex(corner, index, line, LAYER_WAY);
+}
+
+@vertex
+fn line_id_vertex(
+    @builtin(vertex_index) corner: u32,
+    @builtin(instance_index) index: u32,
+    line: LineInstance,
+) -> LineFragment {
+    return line_vertex(corner, index, line, ID_WAY);
 }
 
 fn is_on_line(in: LineFragment) -> bool {
@@ -74,9 +116,10 @@ fn line_opaque(in: LineFragment) -> Opaque {
 }
 
 @fragment
-fn line_layer(in: LineFragment) -> @location(0) vec4<f32> {
-    if is_on_line(in) {
-        store_layer(in.color, in.position);
+fn line_id(in: LineFragment) -> @location(0) vec2<u32> {
+    if !is_on_line(in) {
+        discard;
     }
-    return vec4<f32>(0.0);
+    return in.id;
 }
+

@@ -9,26 +9,49 @@ struct MeshVertex {
 struct MeshFragment {
     @builtin(position) position: vec4<f32>,
     @location(0) view: vec3<f32>,
-    @location(1) @interpolate(flat) normal: vec3<f32>,
-    @location(2) @interpolate(flat) color: vec4<f32>,
-    @location(3) @interpolate(flat) flags: u32,
+    @location(1) height: f32,                              // over the clip plane
+    @location(2) @interpolate(flat) normal: vec3<f32>,
+    @location(3) @interpolate(flat) color: vec4<f32>,
+    @location(4) @interpolate(flat) lit: u32,
+    @location(5) @interpolate(flat) id: vec2<u32>,         // part + 1, triangle
 }
 
-@vertex
-fn mesh_vertex(vertex: MeshVertex) -> MeshFragment {
-    let part = parts[vertex.part];
-    let view = view_position(vertex.position, part.centroid);
+fn mesh_vertex(vertex: MeshVertex, index: u32, way: u32) -> MeshFragment {
     var out: MeshFragment;
+    let part = part_at(vertex.part);
+    let dimming = select(frame.opacity, 1.0, (part.flags & HIGHLIGHTED) != 0u);
+    out.color = vec4<f32>(part.color.rgb, part.color.a * dimming);
+    if !is_drawn(part, out.color.a, way) {
+        out.position = NOWHERE;
+        return out;
+    }
+    let view = view_position(vertex.position + displacement(part.group));
     out.position = frame.clip_from_view * vec4<f32>(view, 1.0);
     out.view = view;
+    out.height = height_over_cut(vertex.position, part);
     out.normal = (frame.view_from_scene * vec4<f32>(vertex.normal.xyz, 0.0)).xyz;
-    out.color = vec4<f32>(part.color.rgb, part.color.a * frame.opacity);
-    out.flags = part.flags;
+    out.lit = part.flags & LIT;
+    out.id = vec2<u32>(vertex.part + 1u, index / 3u);
     return out;
 }
 
+@vertex
+fn mesh_opaque_vertex(@builtin(vertex_index) index: u32, vertex: MeshVertex) -> MeshFragment {
+    return mesh_vertex(vertex, index, OPAQUE_WAY);
+}
+
+@vertex
+fn mesh_layer_vertex(@builtin(vertex_index) index: u32, vertex: MeshVertex) -> MeshFragment {
+    return mesh_vertex(vertex, index, LAYER_WAY);
+}
+
+@vertex
+fn mesh_id_vertex(@builtin(vertex_index) index: u32, vertex: MeshVertex) -> MeshFragment {
+    return mesh_vertex(vertex, index, ID_WAY);
+}
+
 fn mesh_color(in: MeshFragment) -> vec4<f32> {
-    if (in.flags & LIT) == 0u {
+    if in.lit == 0u {
         return in.color;
     }
     return vec4<f32>(shaded(in.color.rgb, normalize(in.normal), in.view), in.color.a);
@@ -36,11 +59,17 @@ fn mesh_color(in: MeshFragment) -> vec4<f32> {
 
 @fragment
 fn mesh_opaque(in: MeshFragment) -> Opaque {
+    if in.height > 0.0 {
+        discard;
+    }
     return opaque(mesh_color(in), in.position);
 }
 
 @fragment
-fn mesh_layer(in: MeshFragment) -> @location(0) vec4<f32> {
-    store_layer(mesh_color(in), in.position);
-    return vec4<f32>(0.0);
+fn mesh_id(in: MeshFragment) -> @location(0) vec2<u32> {
+    if in.height > 0.0 {
+        discard;
+    }
+    return in.id;
 }
+

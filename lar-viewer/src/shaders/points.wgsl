@@ -11,18 +11,22 @@ struct PointFragment {
     @location(0) place: vec2<f32>,                  // samples from the centre
     @location(1) @interpolate(flat) radius: f32,
     @location(2) @interpolate(flat) color: vec4<f32>,
+    @location(3) @interpolate(flat) id: vec2<u32>,  // part + 1, dot
 }
 
-@vertex
-fn point_vertex(@builtin(vertex_index) corner: u32, point: PointInstance) -> PointFragment {
+fn point_vertex(corner: u32, index: u32, point: PointInstance, way: u32) -> PointFragment {
     var out: PointFragment;
-    let part = parts[point.part];
-    let view = view_position(point.center, part.centroid);
-    if view.z > -frame.near {
-        out.position = NOWHERE;
+    out.position = NOWHERE;
+    let part = part_at(point.part);
+    if !is_drawn(part, part.color.a, way) || height_over_cut(point.center, part) > 0.0 {
         return out;
     }
-    let radius = 0.5 * point.size * frame.samples_per_pixel;
+    let view = view_position(point.center + displacement(part.group));
+    if view.z > -frame.near {
+        return out;
+    }
+    let larger = select(1.0, 1.6, (part.flags & HIGHLIGHTED) != 0u);
+    let radius = 0.5 * larger * point.size * frame.samples_per_pixel;
     let center = screen_position(towards_eye(view, 2.0 * radius));
     let reach = radius + 1.0;
     let x = select(-reach, reach, (corner & 1u) == 1u);
@@ -31,7 +35,35 @@ fn point_vertex(@builtin(vertex_index) corner: u32, point: PointInstance) -> Poi
     out.position = vec4<f32>(center.xy + out.place / (0.5 * frame.viewport), center.z, 1.0);
     out.radius = radius;
     out.color = part.color;
+    out.id = vec2<u32>(point.part + 1u, index);
     return out;
+}
+
+@vertex
+fn point_opaque_vertex(
+    @builtin(vertex_index) corner: u32,
+    @builtin(instance_index) index: u32,
+    point: PointInstance,
+) -> PointFragment {
+    return point_vertex(corner, index, point, OPAQUE_WAY);
+}
+
+@vertex
+fn point_layer_vertex(
+    @builtin(vertex_index) corner: u32,
+    @builtin(instance_index) index: u32,
+    point: PointInstance,
+) -> PointFragment {
+    return point_vertex(corner, index, point, LAYER_WAY);
+}
+
+@vertex
+fn point_id_vertex(
+    @builtin(vertex_index) corner: u32,
+    @builtin(instance_index) index: u32,
+    point: PointInstance,
+) -> PointFragment {
+    return point_vertex(corner, index, point, ID_WAY);
 }
 
 @fragment
@@ -43,9 +75,10 @@ fn point_opaque(in: PointFragment) -> Opaque {
 }
 
 @fragment
-fn point_layer(in: PointFragment) -> @location(0) vec4<f32> {
-    if length(in.place) <= in.radius {
-        store_layer(in.color, in.position);
+fn point_id(in: PointFragment) -> @location(0) vec2<u32> {
+    if length(in.place) > in.radius {
+        discard;
     }
-    return vec4<f32>(0.0);
+    return in.id;
 }
+

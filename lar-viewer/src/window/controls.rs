@@ -97,7 +97,7 @@ impl Controls {
     }
 
     fn explode_sliders(&mut self, ui: &mut Ui) {
-        let [x, y, z] = &mut self.view.explode;
+        let [x, y, z] = &mut self.view.explode.factors[0];
         let mut all = (*x + *y + *z) / 3.0;
         if ui.add(egui::Slider::new(&mut all, EXPLODE).text("all")).changed() {
             (*x, *y, *z) = (all, all, all);

@@ -2,7 +2,8 @@
 
 use super::controls::{Asked, Controls};
 use crate::gpu::context::{Context, best_adapter};
-use crate::gpu::renderer::{Renderer, SceneBuffers};
+use crate::gpu::renderer::Renderer;
+use crate::gpu::scene::SceneBuffers;
 use crate::{Scene, View, ViewerError};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -51,7 +52,7 @@ impl Painter {
         let adapter = best_adapter(&instance, Some(&surface))?;
         let mut renderer = Renderer::new(Context::on(&adapter)?)?;
         let config = configuration(&surface, &adapter, &window)?;
-        let buffers = SceneBuffers::new(&renderer.context, scene)?;
+        let buffers = SceneBuffers::new(&renderer.context, scene, u64::MAX)?;
         let options = egui_wgpu::RendererOptions::default();
         let mut egui_renderer = egui_wgpu::Renderer::new(&renderer.context.device, config.format, options);
         // A first picture of one pixel, so that egui has a texture to name.

@@ -1,4 +1,5 @@
 //! Scenes, the adapter, and comparison of pictures for the tests that draw.
+#![allow(dead_code, reason = "each test program uses a part of it")]
 
 use lar_core::{Points, TriangleMesh};
 use lar_viewer::{CellRef, CellShape, Image, OffscreenRenderer, ViewerError};
@@ -61,6 +62,12 @@ pub(crate) fn check_picture(name: &str, image: &Image) {
         image.write_png(&actual).unwrap();
         panic!("{name}: {differing} pixels differ, {allowed} may; see {}", actual.display());
     }
+}
+
+/// Pixels that differ by more than `tolerance` in a channel.
+pub(crate) fn differing(a: &[u8], b: &[u8], tolerance: u8) -> usize {
+    let pixels = a.chunks_exact(4).zip(b.chunks_exact(4));
+    pixels.filter(|(a, b)| a.iter().zip(*b).any(|(x, y)| tolerance < x.abs_diff(*y))).count()
 }
 
 fn read_png(path: &std::path::Path) -> ([u32; 2], Vec<u8>) {

@@ -1,0 +1,245 @@
+//! Drawables: named triangles, segments or dots, with what they show and how they look.
+
+use super::{Appearance, CellRef, GroupId, point3};
+use crate::{Bounds, Rgb};
+use lar_core::TriangleMesh;
+
+/// The geometry of a drawable.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Shape {
+    Mesh { mesh: TriangleMesh, lit: bool },
+    Lines { segments: Vec<[[f64; 3]; 2]>, width: f32, cell_edges: bool },
+    Points { points: Vec<[f64; 3]>, size: f32 },
+}
+
+/// One named thing to draw: triangles, segments or points in one colour.
+///
+/// ```
+/// use lar_viewer::Drawable;
+/// let diagonal = Drawable::lines("diagonal", [[[0.; 3], [1.; 3]]]).width(3.0).color([1., 0., 0.]);
+/// assert_eq!(diagonal.name(), "diagonal");
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawable {
+    pub(crate) name: String,
+    pub(crate) shape: Shape,
+    pub(crate) appearance: Appearance,
+    pub(crate) group: Option<GroupId>,
+    pub(crate) cell: Option<CellRef>,
+    pub(crate) element_cells: Vec<CellRef>,
+    pub(crate) clipped: bool,
+}
+
+impl Drawable {
+    /// Triangles, seen from both sides, flatly lit. Points of two coordinates lie in z = 0.
+    #[must_use]
+    pub fn mesh(name: impl Into<String>, mesh: TriangleMesh) -> Self {
+        Self::new(name, Shape::Mesh { mesh, lit: true }, [1.0; 3])
+    }
+
+    /// Segments of constant width on the screen.
+    #[doc(alias = "GLLines")]
+    #[must_use]
+    pub fn lines(name: impl Into<String>, segments: impl IntoIterator<Item = [[f64; 3]; 2]>) -> Self {
+        let segments = segments.into_iter().collect();
+        Self::new(name, Shape::Lines { segments, width: 1.8, cell_edges: false }, crate::INK)
+    }
+
+    /// Segments that are the edges of cells: drawn as `lines`, hidden when the view shows no edges, and thinner where
+    /// the cell is so small on the screen that its edges would cover it.
+    #[must_use]
+    pub fn edges(name: impl Into<String>, segments: impl IntoIterator<Item = [[f64; 3]; 2]>) -> Self {
+        let segments = segments.into_iter().collect();
+        Self::new(name, Shape::Lines { segments, width: 1.8, cell_edges: true }, crate::INK)
+    }
+
+    /// Round dots of constant size on the screen.
+    #[doc(alias = "GLPoints")]
+    #[must_use]
+    pub fn points(name: impl Into<String>, points: impl IntoIterator<Item = [f64; 3]>) -> Self {
+        Self::new(name, Shape::Points { points: points.into_iter().collect(), size: 6.0 }, crate::INK)
+    }
+
+    fn new(name: impl Into<String>, shape: Shape, color: Rgb) -> Self {
+        Self {
+            name: name.into(),
+            shape,
+            appearance: Appearance::new(color),
+            group: None,
+            cell: None,
+            element_cells: Vec::new(),
+            clipped: true,
+        }
+    }
+
+    /// With this colour.
+    #[must_use]
+    pub fn color(mut self, color: Rgb) -> Self {
+        self.appearance.color = color;
+        self
+    }
+
+    /// With this opacity, 0 invisible to 1 opaque.
+    #[must_use]
+    pub fn opacity(mut self, opacity: f32) -> Self {
+        self.appearance.opacity = opacity;
+        self
+    }
+
+    /// Not drawn until it is shown.
+    #[must_use]
+    pub fn hidden(mut self) -> Self {
+        self.appearance.visible = false;
+        self
+    }
+
+    /// Moving with this group when the scene is exploded.
+    #[must_use]
+    pub fn group(self, group: GroupId) -> Self {
+        Self { group: Some(group), ..self }
+    }
+
+    /// Showing this cell.
+    #[must_use]
+    pub fn cell(self, cell: CellRef) -> Self {
+        Self { cell: Some(cell), ..self }
+    }
+
+    /// Its triangles, segments or dots show these cells, one each: the faces, edges and vertices that bound the cell
+    /// which the whole shows.
+    #[must_use]
+    pub fn element_cells(self, cells: impl IntoIterator<Item = CellRef>) -> Self {
+        Self { element_cells: cells.into_iter().collect(), ..self }
+    }
+
+    /// Left whole by the clip plane of the view: axes, backgrounds.
+    #[must_use]
+    pub fn unclipped(self) -> Self {
+        Self { clipped: false, ..self }
+    }
+
+    /// A mesh in its plain colour, without light. No effect on lines and points, which are never lit.
+    #[must_use]
+    pub fn unlit(mut self) -> Self {
+        if let Shape::Mesh { lit, .. } = &mut self.shape {
+            *lit = false;
+        }
+        self
+    }
+
+    /// Width of lines in pixels. No effect on other shapes.
+    #[must_use]
+    pub fn width(mut self, pixels: f32) -> Self {
+        if let Shape::Lines { width, .. } = &mut self.shape {
+            *width = pixels;
+        }
+        self
+    }
+
+    /// Diameter of points in pixels. No effect on other shapes.
+    #[must_use]
+    pub fn size(mut self, pixels: f32) -> Self {
+        if let Shape::Points { size, .. } = &mut self.shape {
+            *size = pixels;
+        }
+        self
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// How it looks when nothing else is asked for.
+    #[must_use]
+    pub fn appearance(&self) -> Appearance {
+        self.appearance
+    }
+
+    /// The cell it shows.
+    #[must_use]
+    pub fn cell_ref(&self) -> Option<CellRef> {
+        self.cell
+    }
+
+    /// The group it moves with.
+    #[must_use]
+    pub fn group_id(&self) -> Option<GroupId> {
+        self.group
+    }
+
+    /// The cell that one of its triangles, segments or dots shows: its own, or that of the whole.
+    #[must_use]
+    pub fn cell_of_element(&self, element: usize) -> Option<CellRef> {
+        self.element_cells.get(element).copied().or(self.cell)
+    }
+
+    /// Number of its triangles, segments or dots.
+    #[must_use]
+    pub fn n_elements(&self) -> usize {
+        match &self.shape {
+            Shape::Mesh { mesh, .. } => mesh.triangles.len(),
+            Shape::Lines { segments, .. } => segments.len(),
+            Shape::Points { points, .. } => points.len(),
+        }
+    }
+
+    /// The corners of one of its triangles (three), segments (two) or dots (one), not exploded; none beyond the last.
+    #[must_use]
+    pub fn corners_of_element(&self, element: usize) -> Vec<[f64; 3]> {
+        match &self.shape {
+            Shape::Mesh { mesh, .. } => {
+                let corners = mesh.triangles.get(element).into_iter().flatten();
+                corners.map(|&v| point3(&mesh.points, v as usize)).collect()
+            }
+            Shape::Lines { segments, .. } => segments.get(element).into_iter().flatten().copied().collect(),
+            Shape::Points { points, .. } => points.get(element).into_iter().copied().collect(),
+        }
+    }
+
+    /// The box around it, not exploded; `None` when it has no points.
+    #[must_use]
+    pub fn bounds(&self) -> Option<Bounds> {
+        Bounds::of(self.points_drawn())
+    }
+
+    /// The points that it draws, not exploded, some of them repeatedly.
+    pub(crate) fn points_drawn(&self) -> Box<dyn Iterator<Item = [f64; 3]> + '_> {
+        match &self.shape {
+            Shape::Mesh { mesh, .. } => {
+                let corners = mesh.triangles.as_flattened().iter();
+                Box::new(corners.map(|&v| point3(&mesh.points, v as usize)))
+            }
+            Shape::Lines { segments, .. } => Box::new(segments.as_flattened().iter().copied()),
+            Shape::Points { points, .. } => Box::new(points.iter().copied()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lar_core::Points;
+
+    #[test]
+    fn plane_points_lie_at_height_zero() {
+        let points = Points::from_columns(2, vec![0., 0., 1., 0., 0., 1.]);
+        let mesh = TriangleMesh { points, triangles: vec![[0, 1, 2]] };
+        let drawable = Drawable::mesh("flat", mesh);
+        assert_eq!(drawable.bounds(), Some(Bounds { min: [0.; 3], max: [1., 1., 0.] }));
+        assert_eq!(drawable.corners_of_element(0), [[0.; 3], [1., 0., 0.], [0., 1., 0.]]);
+        assert!(drawable.corners_of_element(1).is_empty());
+    }
+
+    #[test]
+    fn elements_show_their_own_cell_or_that_of_the_whole() {
+        let dots = Drawable::points("dots", [[0.; 3], [1.; 3]]);
+        assert_eq!(dots.cell_of_element(1), None);
+        let of_cell = dots.cell(CellRef::new(3, 4));
+        assert_eq!(of_cell.cell_of_element(1), Some(CellRef::new(3, 4)));
+        let each = of_cell.element_cells([CellRef::new(0, 7), CellRef::new(0, 8)]);
+        assert_eq!(each.cell_of_element(1), Some(CellRef::new(0, 8)));
+        assert_eq!((each.cell_ref(), each.n_elements()), (Some(CellRef::new(3, 4)), 2));
+    }
+}
