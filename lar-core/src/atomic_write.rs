@@ -1,9 +1,9 @@
 //! Files that are either written whole or left as they were.
 
-use std::fs::{self, File, OpenOptions};
+use crate::temporary::Temporary;
+use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU32, Ordering};
 
 /// A file or directory that could not be read or written.
 #[derive(Debug, thiserror::Error)]
@@ -55,41 +55,18 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>, FileError> {
 fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     // A link stays a link: what it points to is replaced.
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    let (file, temporary) = temporary_beside(&target)?;
-    let same_permissions = || match fs::metadata(&target) {
-        Ok(old) => fs::set_permissions(&temporary, old.permissions()),
-        Err(_) => Ok(()),
-    };
-    let done =
-        fill(file, write).and_then(|()| same_permissions()).and_then(|()| fs::rename(&temporary, &target));
-    if done.is_err() {
-        // The first error is the one to report; a temporary file that cannot be removed changes nothing about it.
-        let _ = fs::remove_file(&temporary);
+    let (file, temporary) = Temporary::file(&target)?;
+    fill(file, write)?;
+    if let Ok(old) = fs::metadata(&target) {
+        fs::set_permissions(temporary.path(), old.permissions())?;
     }
-    done
+    temporary.replace()
 }
 
 fn fill(file: File, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     let mut buffer = BufWriter::new(file);
     write(&mut buffer)?;
     buffer.flush()
-}
-
-/// A new file in the directory of `path`, hidden, with a name that no other thread or process uses.
-fn temporary_beside(path: &Path) -> io::Result<(File, PathBuf)> {
-    static COUNTER: AtomicU32 = AtomicU32::new(0);
-    let name = path.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "no file name"))?;
-    loop {
-        let mut hidden = std::ffi::OsString::from(".");
-        hidden.push(name);
-        hidden.push(format!(".{}-{}.tmp", std::process::id(), COUNTER.fetch_add(1, Ordering::Relaxed)));
-        let temporary = path.with_file_name(hidden);
-        match OpenOptions::new().write(true).create_new(true).open(&temporary) {
-            Ok(file) => return Ok((file, temporary)),
-            Err(e) if e.kind() == io::ErrorKind::AlreadyExists => {}
-            Err(e) => return Err(e),
-        }
-    }
 }
 
 #[cfg(test)]

@@ -70,6 +70,7 @@ mod structure;
 mod surface;
 mod surface_check;
 mod svg;
+mod temporary;
 mod topology;
 mod triangulated;
 mod validate;
@@ -113,5 +114,6 @@ pub use surface_check::{BoundaryEdge, SurfaceViolation};
 pub use svg::{Drawing, NamedShapes, Polyline, SvgError, SvgStyle, SvgWriter};
 #[cfg(feature = "svg")]
 pub use svg::{parse_svg, read_svg};
+pub use temporary::{NoTemporaries, Temporary, remove_temporaries};
 pub use topology::{CellComponents, Components};
 pub use validate::Violation;

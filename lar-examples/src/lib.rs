@@ -16,6 +16,7 @@
 //! Features: `viewer` (default) draws pictures off-screen, `window` (default) opens windows. Without them no graphics
 //! crate is built, and the commands that need one say so.
 
+mod bar;
 pub mod checks;
 pub mod command;
 mod error;
@@ -34,6 +35,7 @@ pub mod tables;
 pub mod three_cubes;
 
 pub use error::CommandError;
+pub use program::main;
 
 /// The programs in the README are compiled and run with the tests.
 #[cfg(doctest)]

@@ -2,9 +2,9 @@
 //! before anything is computed.
 
 use crate::CommandError;
-use lar_core::atomic_write;
+use lar_core::{Temporary, atomic_write};
 use serde::Serialize;
-use std::fs::{self, OpenOptions};
+use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -60,9 +60,7 @@ pub(crate) fn check_file(path: &Path) -> Result<(), CommandError> {
     let tried = match fs::metadata(path) {
         Ok(data) if data.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
         Ok(data) if !data.is_file() => Ok(()),
-        _ => beside(path).and_then(|probe| {
-            OpenOptions::new().write(true).create_new(true).open(&probe).and_then(|_| fs::remove_file(&probe))
-        }),
+        _ => Temporary::file(path).map(drop),
     };
     tried.map_err(|source| CommandError::Write { path: path.to_owned(), source })
 }
@@ -73,8 +71,7 @@ pub(crate) fn check_directory(path: &Path) -> Result<(), CommandError> {
         Ok(n) if 0 < n => Err(CommandError::NotEmpty { path: path.to_owned() }),
         Ok(_) => Ok(()),
         Err(missing) if missing.kind() == io::ErrorKind::NotFound => {
-            let probe =
-                beside(path).and_then(|probe| fs::create_dir(&probe).and_then(|()| fs::remove_dir(&probe)));
+            let probe = Temporary::directory(path).map(drop);
             probe.map_err(|source| CommandError::Write { path: path.to_owned(), source })
         }
         Err(source) => Err(CommandError::Write { path: path.to_owned(), source }),
@@ -89,30 +86,16 @@ pub(crate) fn write_directory(
 ) -> Result<(), CommandError> {
     check_directory(path)?;
     let failed = |source| CommandError::Write { path: path.to_owned(), source };
-    let temporary = beside(path).map_err(failed)?;
-    fs::create_dir(&temporary).map_err(failed)?;
-    let done = fill(&temporary).and_then(|()| replace_empty(&temporary, path).map_err(failed));
-    if done.is_err() {
-        // The first error is the one to report; a directory that cannot be removed changes nothing about it.
-        let _ = fs::remove_dir_all(&temporary);
-    }
-    done
+    let temporary = Temporary::directory(path).map_err(failed)?;
+    fill(temporary.path())?;
+    replace_empty(temporary, path).map_err(failed)
 }
 
-fn replace_empty(from: &Path, to: &Path) -> io::Result<()> {
+fn replace_empty(from: Temporary, to: &Path) -> io::Result<()> {
     match fs::remove_dir(to) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
-        _ => fs::rename(from, to),
+        _ => from.replace(),
     }
-}
-
-/// A hidden name beside `path` that only this process uses.
-fn beside(path: &Path) -> io::Result<PathBuf> {
-    let name = path.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "no file name"))?;
-    let mut hidden = std::ffi::OsString::from(".");
-    hidden.push(name);
-    hidden.push(format!(".{}.tmp", std::process::id()));
-    Ok(path.with_file_name(hidden))
 }
 
 #[cfg(test)]

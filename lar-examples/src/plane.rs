@@ -16,7 +16,7 @@ mod picture;
 mod render;
 pub mod scenes;
 
-pub(crate) use boolean::{Boolean, BooleanOptions, arranger};
+pub(crate) use boolean::{Boolean, BooleanOptions, arranged};
 pub use color::face_colors;
 pub(crate) use file::PictureFile;
 pub(crate) use input::{Input, Shapes, Source};

@@ -2,8 +2,25 @@
 
 use crate::CommandError;
 use clap::{Parser, error::ErrorKind};
+use std::env::ArgsOs;
 use std::ffi::OsString;
 use std::io::{self, Write};
+use std::process::ExitCode;
+
+/// As shells have it: 128 + the number of the signal that Ctrl-C sends.
+const INTERRUPTED: i32 = 130;
+
+/// The main function of a program: `run` is given the arguments, the standard output and the error stream, and returns
+/// the exit code. Ctrl-C, or a request to end, removes unfinished outputs and exits with 130.
+pub fn main(run: impl FnOnce(ArgsOs, &mut dyn Write, &mut dyn Write) -> u8) -> ExitCode {
+    // When the parent process has interrupts ignored, they stay ignored.
+    let _ = ctrlc::try_set_handler(|| {
+        let _removed = lar_core::remove_temporaries();
+        std::process::exit(INTERRUPTED);
+    });
+    // The error stream is not locked: progress is drawn there by the threads at work.
+    run(std::env::args_os(), &mut io::stdout().lock(), &mut io::stderr()).into()
+}
 
 /// Parses the arguments, the program's name first, and runs the program. Results go to `out`; an error is one line
 /// `name: …` on `err`. Returns the exit code.

@@ -1,9 +1,7 @@
 //! Figure 5 of the 2019 paper; see [`lar_examples::plane::figures`].
 
-use std::io::{stderr, stdout};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    lar_examples::plane::figures::run_figure5(std::env::args_os(), &mut stdout().lock(), &mut stderr().lock())
-        .into()
+    lar_examples::main(|args, out, err| lar_examples::plane::figures::run_figure5(args, out, err))
 }

@@ -103,6 +103,7 @@ impl Window {
 #[cfg(feature = "viewer")]
 mod with_viewer {
     use super::{CommandError, Explode, Inputs, Look, Render, Which, Write};
+    use crate::bar::Bar;
     use crate::output::check_file;
     use crate::shapes::Shapes;
     use lar_arrangement::{Arrangement, Arranger};
@@ -141,7 +142,10 @@ mod with_viewer {
     }
 
     fn scene(inputs: &Inputs, look: Look) -> Result<Scene, CommandError> {
-        let arrangement = Arranger::new().arrange(&inputs.read()?.surfaces)?;
+        let surfaces = inputs.read()?.surfaces;
+        let bar = Bar::new();
+        let arrangement = Arranger::new().progress(&|progress| bar.show(progress)).arrange(&surfaces)?;
+        drop(bar);
         let shapes = Shapes::new(&arrangement)?;
         let style = CellStyle { opacity: look.alpha, ..CellStyle::default() };
         let mut scene = Scene::new();

@@ -7,7 +7,7 @@ use super::report::{Stages, Threads, counted, print_laws};
 use crate::CommandError;
 use crate::checks::boundary_squared_zero;
 use crate::output::{Sink, check_distinct, check_file};
-use crate::plane::{Boolean, BooleanOptions, Input, Picture, PictureFile, Shapes, Source, arranger};
+use crate::plane::{Boolean, BooleanOptions, Input, Picture, PictureFile, Shapes, Source, arranged};
 use crate::size::Size;
 use lar_arrangement::Expression;
 use lar_arrangement::planar::{Dangling, PlanarArrangement, Polygons};
@@ -191,7 +191,7 @@ impl Plane {
         let before = Instant::now();
         let drawing = job.shapes.drawing();
         let dangling = if self.keep_dangling { Dangling::Keep } else { Dangling::Drop };
-        let arrangement = arranger(self.threads.count()).dangling(dangling).arrange(&drawing)?;
+        let arrangement = arranged(&drawing, self.threads.count(), dangling)?;
         let arrange = before.elapsed();
         let report = self.partition_report(job, &arrangement, arrange);
         let picture = || Picture::partition(&arrangement, self.explode);

@@ -1,6 +1,7 @@
 //! Parts that the reports of several commands share.
 
 use crate::CommandError;
+use crate::bar::Bar;
 use lar_arrangement::{Arrangement, Arranger, Closure, Planes, Stats};
 use lar_core::{CellId, Surface};
 use serde::{Serialize, Serializer};
@@ -57,7 +58,9 @@ pub(crate) fn arrange(
     coplanarity: Coplanarity,
 ) -> Result<(Arrangement, Duration), CommandError> {
     let start = Instant::now();
-    let arranger = Arranger::new().threads(threads.count()).planes(coplanarity.planes());
+    let bar = Bar::new();
+    let show = |progress| bar.show(progress);
+    let arranger = Arranger::new().threads(threads.count()).planes(coplanarity.planes()).progress(&show);
     let arrangement = arranger.arrange(surfaces)?;
     Ok((arrangement, start.elapsed()))
 }

@@ -4,6 +4,7 @@
 
 use super::input::{Regions, Shapes};
 use crate::CommandError;
+use crate::bar::Bar;
 use lar_arrangement::planar::{Dangling, Drawing, PlanarArrangement, PlanarArranger, Polygons};
 use lar_arrangement::{ArrangementError, BooleanError, Closure, Expression, FillRule};
 use lar_core::{FaceId, Points};
@@ -119,9 +120,16 @@ fn arrange(
             next += 2;
         }
     }
-    arranger(threads).dangling(Dangling::Keep).arrange(&drawing)
+    arranged(&drawing, threads, Dangling::Keep)
 }
 
-pub(crate) fn arranger(threads: NonZeroUsize) -> PlanarArranger<'static> {
-    PlanarArranger::new().threads(threads)
+/// The arrangement of a drawing, with a bar when it takes a while.
+pub(crate) fn arranged(
+    drawing: &Drawing,
+    threads: NonZeroUsize,
+    dangling: Dangling,
+) -> Result<PlanarArrangement, ArrangementError> {
+    let bar = Bar::new();
+    let show = |progress| bar.show(progress);
+    PlanarArranger::new().threads(threads).dangling(dangling).progress(&show).arrange(drawing)
 }
