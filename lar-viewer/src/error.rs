@@ -150,6 +150,9 @@ pub enum ViewerError {
         /// Name of the adapter.
         adapter: String,
     },
+    /// Not a complex that can be shown.
+    #[error(transparent)]
+    Complex(#[from] lar_core::IntegrationError),
     /// A picture file could not be written.
     #[error(transparent)]
     File(#[from] lar_core::FileError),

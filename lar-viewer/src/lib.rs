@@ -17,6 +17,7 @@
 
 mod bounds;
 mod camera;
+mod cell_data;
 mod cells;
 mod clip;
 mod error;
@@ -27,12 +28,14 @@ mod orientation;
 mod palette;
 mod pick;
 mod scene;
+pub mod session;
 mod view;
 #[cfg(feature = "window")]
 mod window;
 
 pub use bounds::Bounds;
 pub use camera::{Camera, Projection};
+pub use cell_data::{CellData, FaceParent, Measures, Provenance};
 pub use cells::{CellShape, CellStyle, push_axes, push_cells};
 pub use clip::Clip;
 pub use error::ViewerError;

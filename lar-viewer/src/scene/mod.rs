@@ -23,10 +23,10 @@ pub use explosion::{Explosion, LEVELS};
 
 pub(crate) use drawable::Shape;
 pub(crate) use extents::Extents;
+pub(crate) use validate::finite;
 
 use crate::{Bounds, ViewerError};
 use lar_core::Points;
-use validate::finite;
 
 /// Names a group of one scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -48,7 +48,7 @@ impl Drawable {
     }
 }
 
-pub(super) fn finite(
+pub(crate) fn finite(
     drawable: &str,
     item: &'static str,
     index: usize,

@@ -1,0 +1,331 @@
+//! What a user has made of a complex on show: what is visible, selected, highlighted, exploded, cut, measured.
+//!
+//! A session is state and commands. It needs neither a window nor a graphics card, so that everything a window can do is
+//! tested without one; panels read it and send it [`Command`]s.
+
+mod coloring;
+mod explode;
+mod measuring;
+mod replay;
+mod section;
+mod stage;
+mod visibility;
+
+pub use coloring::{ColorBy, scale_color, size_range};
+pub use explode::{Center, Explode, ExplodeBy, LEVEL_NAMES, Pieces};
+pub use measuring::Measuring;
+pub use replay::{Replay, WrapStep};
+pub use section::{Normal, Section};
+pub use stage::Stage;
+pub use visibility::{Exterior, Visibility};
+
+use crate::{CellData, CellRef, Rgb, SLATE};
+use lar_core::Chain;
+use std::sync::Arc;
+use visibility::History;
+
+/// Cells that were selected before, which the way back leads through.
+const TRAIL_LIMIT: usize = 500;
+
+/// Which chain of a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relation {
+    /// ∂: the cells in its boundary.
+    Boundary,
+    /// δ: the cells in whose boundary it is.
+    Coboundary,
+}
+
+/// A chain that is made to stand out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Highlight {
+    /// What it is, in words.
+    pub label: String,
+    /// The cells, with their signs.
+    pub chain: Chain,
+    /// The piece of the exploded complex in which it is shown; all pieces when `None`.
+    pub within: Option<CellRef>,
+}
+
+/// What a user asks of a session.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Command {
+    /// Shows or hides all cells of a dimension.
+    ToggleLayer(u8),
+    /// Shows the exterior in another way.
+    SetExterior(Exterior),
+    /// Hides cells.
+    Hide(Vec<CellRef>),
+    /// Shows cells that were hidden or outside of what is isolated.
+    Show(Vec<CellRef>),
+    /// Shows cells alone, with their boundaries.
+    Isolate(Vec<CellRef>),
+    /// Shows everything.
+    ShowAll,
+    /// Takes the last change of visibility back.
+    Undo,
+    /// Makes it again.
+    Redo,
+    /// Turns numbers on the cells of a dimension on or off.
+    ToggleNumbers(u8),
+    /// Selects a cell, or nothing.
+    Select(Option<CellRef>),
+    /// Selects what was selected before.
+    Back,
+    /// Highlights the boundary or coboundary chain of a cell.
+    Highlight(CellRef, Relation),
+    /// Highlights any chain.
+    ShowChain(Highlight),
+    /// Highlights nothing and ends the replay.
+    ClearHighlight,
+    /// Adds a point to measure from.
+    Measure([f64; 3]),
+    /// Forgets the points to measure from.
+    ClearMeasuring,
+    /// Begins the replay of a cell's gift wrapping.
+    StartReplay(CellRef, Vec<WrapStep>),
+    /// Goes to a picture of the replay.
+    GoTo(usize),
+}
+
+/// A complex on show and the state of its show.
+///
+/// ```
+/// use lar_core::{ChainComplex, cuboid_grid};
+/// use lar_viewer::session::{Command, Session};
+/// use lar_viewer::{CellData, CellRef};
+/// let mut session = Session::new(CellData::new(ChainComplex::from_model(&cuboid_grid(&[2, 1, 1]))?)?);
+/// let first = CellRef { dim: 3, index: 0 };
+/// session.apply(Command::Hide(vec![first]));
+/// assert!(!session.visibility().shows(first));
+/// session.apply(Command::Undo);
+/// assert!(session.visibility().shows(first));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Session {
+    data: Arc<CellData>,
+    visibility: Visibility,
+    history: History<Visibility>,
+    selected: Option<CellRef>,
+    trail: Vec<CellRef>,
+    highlight: Option<Highlight>,
+    measuring: Measuring,
+    replay: Option<Replay>,
+    numbers: [bool; 4],
+    /// How far the pieces are pulled apart.
+    pub explode: Explode,
+    /// The clip plane.
+    pub section: Section,
+    /// What colours mean.
+    pub coloring: ColorBy,
+    /// Opacity of triangles.
+    pub opacity: f32,
+    /// Colour behind everything.
+    pub background: Rgb,
+}
+
+impl Session {
+    /// Shows the cells of the highest dimension that a solid contains, or all of them where no solid is known, with their
+    /// edges.
+    #[must_use]
+    pub fn new(data: CellData) -> Self {
+        let mut session = Self {
+            data: Arc::new(data),
+            visibility: Visibility::default(),
+            history: History::default(),
+            selected: None,
+            trail: Vec::new(),
+            highlight: None,
+            measuring: Measuring::default(),
+            replay: None,
+            numbers: [false; 4],
+            explode: Explode::default(),
+            section: Section::default(),
+            coloring: ColorBy::default(),
+            opacity: 1.0,
+            background: SLATE,
+        };
+        let dim = session.data.dim();
+        session.visibility.layers[usize::from(dim)] = true;
+        if !session.data.solids().is_empty() {
+            let cells = (0..session.data.n_cells(dim) as u32).map(|index| CellRef { dim, index });
+            let void = |c: &CellRef| !session.data.is_exterior(*c) && session.data.solids_of(*c).is_empty();
+            let voids: Vec<CellRef> = cells.filter(void).collect();
+            session.visibility.hide(&voids);
+        }
+        session
+    }
+
+    /// The same settings for another complex: what a reload keeps. Cells that are gone are no longer selected, and
+    /// nothing is hidden, as the cells are numbered anew.
+    #[must_use]
+    pub fn with_data(&self, data: CellData) -> Self {
+        let mut next = Self::new(data);
+        next.visibility.layers = self.visibility.layers;
+        next.visibility.exterior = self.visibility.exterior;
+        next.selected = self.selected.filter(|&c| next.data.contains(c));
+        Self {
+            numbers: self.numbers,
+            explode: self.explode,
+            section: self.section,
+            coloring: self.coloring,
+            opacity: self.opacity,
+            background: self.background,
+            ..next
+        }
+    }
+
+    /// The complex and what is known of it.
+    #[must_use]
+    pub fn data(&self) -> &CellData {
+        &self.data
+    }
+
+    /// What is visible.
+    #[must_use]
+    pub fn visibility(&self) -> &Visibility {
+        &self.visibility
+    }
+
+    /// Whether there is a change of visibility to take back, and one to make again.
+    #[must_use]
+    pub fn can_undo_redo(&self) -> [bool; 2] {
+        [self.history.can_undo(), self.history.can_redo()]
+    }
+
+    /// The selected cell.
+    #[must_use]
+    pub fn selected(&self) -> Option<CellRef> {
+        self.selected
+    }
+
+    /// Whether something was selected before.
+    #[must_use]
+    pub fn can_go_back(&self) -> bool {
+        !self.trail.is_empty()
+    }
+
+    /// The chain that stands out.
+    #[must_use]
+    pub fn highlight(&self) -> Option<&Highlight> {
+        self.highlight.as_ref()
+    }
+
+    /// The points to measure from.
+    #[must_use]
+    pub fn measuring(&self) -> &Measuring {
+        &self.measuring
+    }
+
+    /// The replay that runs.
+    #[must_use]
+    pub fn replay(&self) -> Option<&Replay> {
+        self.replay.as_ref()
+    }
+
+    /// Whether the cells of each dimension carry their numbers.
+    #[must_use]
+    pub fn numbers(&self) -> [bool; 4] {
+        self.numbers
+    }
+
+    /// Whether a cell of the highest dimension is drawn as a solid thing: shown, and not a hidden exterior.
+    #[must_use]
+    pub fn draws(&self, cell: CellRef) -> bool {
+        let exterior = self.data.is_exterior(cell) && self.visibility.exterior == Exterior::Hidden;
+        !exterior && self.visibility.shows(cell)
+    }
+
+    /// How finely the complex must be taken apart for what moves, is hidden and is coloured for itself.
+    #[must_use]
+    pub fn pieces(&self) -> Pieces {
+        let faces_alone =
+            self.data.dim() == 3 && (self.visibility.layers[2] || self.visibility.finest() == 2);
+        let hidden = match self.visibility.finest() {
+            0 | 1 => Pieces::Edges,
+            _ if faces_alone => Pieces::Faces,
+            _ => Pieces::Cells,
+        };
+        self.explode.pieces(self.data.dim()).max(hidden)
+    }
+
+    /// Does what is asked. What names cells that do not exist changes nothing.
+    pub fn apply(&mut self, command: Command) {
+        match command {
+            Command::ToggleLayer(_)
+            | Command::SetExterior(_)
+            | Command::Hide(_)
+            | Command::Show(_)
+            | Command::Isolate(_)
+            | Command::ShowAll => self.change_visibility(command),
+            Command::Undo => _ = self.history.undo(&mut self.visibility),
+            Command::Redo => _ = self.history.redo(&mut self.visibility),
+            Command::ToggleNumbers(dim) => toggle(&mut self.numbers, dim),
+            Command::Select(cell) => self.select(cell),
+            Command::Back => {
+                self.selected = self.trail.pop().or(self.selected);
+                self.highlight = None;
+            }
+            Command::Highlight(cell, relation) => self.highlight_relation(cell, relation),
+            Command::ShowChain(highlight) => self.highlight = Some(highlight),
+            Command::ClearHighlight => (self.highlight, self.replay) = (None, None),
+            Command::Measure(point) => self.measuring.push(point),
+            Command::ClearMeasuring => self.measuring.clear(),
+            Command::StartReplay(cell, steps) => {
+                self.highlight = None;
+                self.replay = Replay::new(cell, steps);
+            }
+            Command::GoTo(picture) => self.replay.iter_mut().for_each(|r| r.go_to(picture)),
+        }
+    }
+
+    fn change_visibility(&mut self, command: Command) {
+        let before = self.visibility.clone();
+        let existing = |mut cells: Vec<CellRef>| {
+            cells.retain(|&c| self.data.contains(c));
+            cells
+        };
+        match command {
+            Command::ToggleLayer(dim) => toggle(&mut self.visibility.layers, dim),
+            Command::SetExterior(exterior) => self.visibility.exterior = exterior,
+            Command::Hide(cells) => self.visibility.hide(&existing(cells)),
+            Command::Show(cells) => self.visibility.show(&self.data, &existing(cells)),
+            Command::Isolate(cells) => self.visibility.isolate(&self.data, &existing(cells)),
+            _ => self.visibility.show_all(),
+        }
+        self.history.left(before, &self.visibility);
+    }
+
+    fn select(&mut self, cell: Option<CellRef>) {
+        let cell = cell.filter(|&c| self.data.contains(c));
+        if cell != self.selected {
+            self.trail.extend(self.selected);
+            let excess = self.trail.len().saturating_sub(TRAIL_LIMIT);
+            self.trail.drain(..excess);
+            self.selected = cell;
+            self.highlight = None;
+        }
+    }
+
+    fn highlight_relation(&mut self, cell: CellRef, relation: Relation) {
+        let (symbol, chain) = match relation {
+            Relation::Boundary => ("∂", self.data.boundary(cell)),
+            Relation::Coboundary => ("δ", self.data.coboundary(cell)),
+        };
+        let top = relation == Relation::Boundary && cell.dim == self.data.dim();
+        if let Some(chain) = chain {
+            let within = top.then_some(cell);
+            self.highlight = Some(Highlight { label: format!("{symbol} {cell}"), chain, within });
+        }
+    }
+}
+
+fn toggle(flags: &mut [bool; 4], dim: u8) {
+    if let Some(flag) = flags.get_mut(usize::from(dim)) {
+        *flag = !*flag;
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,202 @@
+//! Which cells are shown, and the way back.
+
+use crate::{CellData, CellRef};
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// Undone changes that are remembered.
+const HISTORY_LIMIT: usize = 200;
+
+/// Sets of cells, one for each dimension. Copies share what they have in common, so that a history of them is cheap.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct CellSets([Arc<BTreeSet<u32>>; 4]);
+
+impl CellSets {
+    fn contains(&self, cell: CellRef) -> bool {
+        self.0.get(usize::from(cell.dim)).is_some_and(|set| set.contains(&cell.index))
+    }
+
+    fn insert(&mut self, cell: CellRef) {
+        if let Some(set) = self.0.get_mut(usize::from(cell.dim)) {
+            Arc::make_mut(set).insert(cell.index);
+        }
+    }
+
+    fn remove(&mut self, cell: CellRef) {
+        if let Some(set) = self.0.get_mut(usize::from(cell.dim)) {
+            Arc::make_mut(set).remove(&cell.index);
+        }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.0.iter().all(|set| set.is_empty())
+    }
+
+    /// The lowest dimension that is not empty; 3 when all are.
+    fn lowest(&self) -> u8 {
+        (0..3).find(|&dim| !self.0[usize::from(dim)].is_empty()).unwrap_or(3)
+    }
+
+    /// The highest dimension that is not empty; 0 when all are.
+    fn highest(&self) -> u8 {
+        (1..4).rev().find(|&dim| !self.0[usize::from(dim)].is_empty()).unwrap_or(0)
+    }
+}
+
+/// How the exterior cell is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Exterior {
+    /// Not at all.
+    #[default]
+    Hidden,
+    /// As a white shell in its place, which the others are exploded out of.
+    Shell,
+    /// As a barely visible shell.
+    Translucent,
+}
+
+impl Exterior {
+    /// All ways.
+    pub const ALL: [Self; 3] = [Self::Hidden, Self::Shell, Self::Translucent];
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Hidden => "hidden",
+            Self::Shell => "white shell",
+            Self::Translucent => "translucent",
+        }
+    }
+}
+
+/// What is shown: dimensions, single cells hidden, some cells alone, the exterior.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Visibility {
+    /// Whether vertices, edges, faces, cells are drawn.
+    pub layers: [bool; 4],
+    /// How the exterior is shown.
+    pub exterior: Exterior,
+    hidden: CellSets,
+    /// The cells that are shown alone, with all cells in their boundaries.
+    isolated: Option<CellSets>,
+}
+
+impl Default for Visibility {
+    /// Cells and their edges.
+    fn default() -> Self {
+        Self {
+            layers: [false, true, false, true],
+            exterior: Exterior::default(),
+            hidden: CellSets::default(),
+            isolated: None,
+        }
+    }
+}
+
+impl Visibility {
+    /// Whether a cell is neither hidden nor outside of what is isolated. Says nothing of its layer.
+    #[must_use]
+    pub fn shows(&self, cell: CellRef) -> bool {
+        !self.hidden.contains(cell) && self.isolated.as_ref().is_none_or(|alone| alone.contains(cell))
+    }
+
+    /// Whether every cell is shown.
+    #[must_use]
+    pub fn shows_all(&self) -> bool {
+        self.hidden.is_empty() && self.isolated.is_none()
+    }
+
+    /// The lowest dimension in which single cells are hidden or isolated for themselves; 3 when none are.
+    #[must_use]
+    pub(super) fn finest(&self) -> u8 {
+        let hidden = self.hidden.lowest();
+        hidden.min(self.isolated.as_ref().map_or(3, CellSets::highest))
+    }
+
+    /// Whether nothing of this dimension is isolated, but something of a lower one.
+    #[must_use]
+    pub(super) fn isolates_below(&self, unit: CellRef) -> bool {
+        self.isolated.as_ref().is_some_and(|alone| alone.highest() < unit.dim)
+    }
+
+    pub(super) fn hide(&mut self, cells: &[CellRef]) {
+        cells.iter().for_each(|&c| self.hidden.insert(c));
+    }
+
+    /// Shows cells that were hidden; what is isolated grows by them.
+    pub(super) fn show(&mut self, data: &CellData, cells: &[CellRef]) {
+        cells.iter().for_each(|&c| self.hidden.remove(c));
+        if let Some(alone) = &mut self.isolated {
+            closure(data, cells).for_each(|c| alone.insert(c));
+        }
+    }
+
+    /// Shows these cells alone, whether they were hidden or not.
+    pub(super) fn isolate(&mut self, data: &CellData, cells: &[CellRef]) {
+        let mut alone = CellSets::default();
+        closure(data, cells).for_each(|c| alone.insert(c));
+        cells.iter().for_each(|&c| self.hidden.remove(c));
+        self.isolated = Some(alone);
+    }
+
+    pub(super) fn show_all(&mut self) {
+        self.hidden = CellSets::default();
+        self.isolated = None;
+    }
+}
+
+fn closure<'a>(data: &CellData, cells: &'a [CellRef]) -> impl Iterator<Item = CellRef> + use<'a> {
+    let closure = (0..).zip(data.closure(cells.iter().copied()));
+    closure.flat_map(|(dim, cells)| cells.into_iter().map(move |index| CellRef { dim, index }))
+}
+
+/// States that were left, and those that were returned from.
+#[derive(Clone, Debug)]
+pub(super) struct History<T> {
+    past: Vec<T>,
+    future: Vec<T>,
+}
+
+impl<T> Default for History<T> {
+    fn default() -> Self {
+        Self { past: Vec::new(), future: Vec::new() }
+    }
+}
+
+impl<T: PartialEq> History<T> {
+    /// Remembers a state that was left for `now`, unless nothing changed.
+    pub(super) fn left(&mut self, before: T, now: &T) {
+        if before != *now {
+            self.future.clear();
+            self.past.push(before);
+            if HISTORY_LIMIT < self.past.len() {
+                self.past.remove(0);
+            }
+        }
+    }
+
+    /// Goes back; returns whether there was somewhere to go.
+    pub(super) fn undo(&mut self, state: &mut T) -> bool {
+        Self::go(&mut self.past, &mut self.future, state)
+    }
+
+    /// Goes forward again.
+    pub(super) fn redo(&mut self, state: &mut T) -> bool {
+        Self::go(&mut self.future, &mut self.past, state)
+    }
+
+    fn go(from: &mut Vec<T>, to: &mut Vec<T>, state: &mut T) -> bool {
+        let Some(target) = from.pop() else { return false };
+        to.push(std::mem::replace(state, target));
+        true
+    }
+
+    pub(super) fn can_undo(&self) -> bool {
+        !self.past.is_empty()
+    }
+
+    pub(super) fn can_redo(&self) -> bool {
+        !self.future.is_empty()
+    }
+}
