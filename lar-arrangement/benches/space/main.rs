@@ -1,8 +1,9 @@
 //! Times of spatial arrangements and Booleans, whole and by stages: `cargo bench -p lar-arrangement --bench space`.
 //!
 //! One operation on one workload, measured in a process of its own, as a line of JSON:
-//! `cargo bench -p lar-arrangement --bench space -- --json spheres-20k [--boolean] [--threads 2] [--repeat 5]`. With
-//! `--write DIRECTORY [--format arrays|obj|stl]` the operands are written there instead.
+//! `cargo bench -p lar-arrangement --bench space -- --json spheres-20k [--boolean] [--threads 2] [--repeat 5] [--seconds 1]`,
+//! as often as is said but for no longer than is said. With `--write DIRECTORY [--format arrays|obj|stl]` the operands are
+//! written there instead.
 //! lar-examples/benches/rivals/space.py compares with other libraries on the same workloads.
 
 mod operation;

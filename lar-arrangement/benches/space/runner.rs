@@ -21,6 +21,7 @@ pub(crate) struct Request {
     operation: Operation,
     threads: NonZeroUsize,
     repeat: usize,
+    seconds: f64,
     write: Option<(PathBuf, Format)>,
 }
 
@@ -36,7 +37,8 @@ impl Request {
     /// The request that the arguments make, if any: `--json WORKLOAD`, and what may go with it.
     pub(crate) fn parse(mut arguments: impl Iterator<Item = String>) -> Result<Option<Self>> {
         let (mut workload, mut operation, mut directory) = (None, Operation::Cells, None);
-        let (mut threads, mut repeat, mut format) = (NonZeroUsize::MIN, 1, Format::Arrays);
+        let (mut threads, mut format) = (NonZeroUsize::MIN, Format::Arrays);
+        let (mut repeat, mut seconds) = (1, f64::INFINITY);
         while let Some(argument) = arguments.next() {
             let mut value = || arguments.next().ok_or_else(|| format!("{argument} needs a value"));
             match argument.as_str() {
@@ -44,6 +46,7 @@ impl Request {
                 "--boolean" => operation = Operation::Boolean,
                 "--threads" => threads = value()?.parse()?,
                 "--repeat" => repeat = value()?.parse::<NonZeroUsize>()?.get(),
+                "--seconds" => seconds = value()?.parse()?,
                 "--write" => directory = Some(PathBuf::from(value()?)),
                 "--format" => format = Format::named(&value()?)?,
                 // For criterion, or from cargo.
@@ -51,7 +54,7 @@ impl Request {
             }
         }
         let write = directory.map(|d| (d, format));
-        Ok(workload.map(|workload| Self { workload, operation, threads, repeat, write }))
+        Ok(workload.map(|workload| Self { workload, operation, threads, repeat, seconds, write }))
     }
 
     /// Writes the operands when a directory is given, measures otherwise.
@@ -70,7 +73,8 @@ impl Request {
         reset_peak()?;
         let mut memory_used = None;
         let mut last = None;
-        for _ in 0..self.repeat {
+        let start = Instant::now();
+        while cpu.len() < self.repeat && (cpu.is_empty() || start.elapsed().as_secs_f64() < self.seconds) {
             drop(last.take());
             let (since, cpu_since) = (Instant::now(), ProcessTime::now());
             let outcome = job.run(self.operation)?;
@@ -89,9 +93,10 @@ impl Request {
             "cpu": median(&cpu),
             "wall": median(&wall),
             "cpu_least": cpu.iter().copied().fold(f64::INFINITY, f64::min),
-            "repeat": self.repeat,
+            "repeat": cpu.len(),
             "memory": memory_used,
             "counts": outcome.counts(),
+            "area": outcome.area(),
             "volume": outcome.volume(),
             "stages": stages(&stats),
             "pairs_tested": outcome.stats().pairs_tested,

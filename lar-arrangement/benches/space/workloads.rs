@@ -44,7 +44,7 @@ const fn union(name: &'static str, operands: fn() -> Vec<TriangleMesh>) -> Workl
 }
 
 /// General position (many crossings, then few), coplanar faces, nesting, and growth.
-pub(crate) const WORKLOADS: [Workload; 25] = [
+pub(crate) const WORKLOADS: [Workload; 24] = [
     union("three-cubes", three_cubes),
     union("cubes-10", || cubes(10, 1.0)),
     union("cubes-30", || cubes(30, 1.0)),
@@ -68,8 +68,7 @@ pub(crate) const WORKLOADS: [Workload; 25] = [
     Workload { name: "holes", combination: Combination::Difference, operands: holes },
     union("scattered-10k", || scattered(900)),
     union("scattered-100k", || scattered(9000)),
-    union("scattered-500k", || scattered(45_000)),
-    union("scattered-2M", || scattered(180_000)),
+    union("scattered-1M", || scattered(90_000)),
 ];
 
 /// The unit cube; each face is cut along the diagonal from its least corner to its greatest, so that the triangles of

@@ -9,8 +9,6 @@ import math
 import os
 import platform
 import re
-import resource
-import signal
 import statistics
 import subprocess
 import sys
@@ -21,9 +19,9 @@ HERE = Path(__file__).resolve().parent
 DOCUMENT = HERE.parents[2] / "docs" / "benchmarks.md"
 
 REPETITIONS = 5
-# A run that takes longer (in seconds of CPU time) is not repeated, but the first engine's is.
+# A run that takes longer (in seconds of CPU time) is not repeated, but the first engine's is up to ten times that.
 LONG = 2.0
-# And a process that takes longer than this is given up.
+# And a process that takes longer than this, in seconds, is given up.
 LIMIT = 40
 
 
@@ -69,30 +67,41 @@ def compile_cpp(source, program, usr, *libraries):
     return program
 
 
-def run(command):
+def run(command, limit):
     """What one run prints, or why there is nothing: a word."""
-    limit = lambda: resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT))
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, preexec_fn=limit)
-    if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+    # A limit of CPU time (RLIMIT_CPU) would make Linux count the CPU time of the process in ticks of milliseconds.
+    try:
+        done = subprocess.run([str(c) for c in command], capture_output=True, text=True, timeout=limit)
+    except subprocess.TimeoutExpired:
         return "time"
     lines = done.stdout.strip().splitlines()
     return json.loads(lines[-1]) if done.returncode == 0 and lines else "fails"
 
 
-def by_turns(engines, file, too_large):
-    """Runs all engines on a file by turns: medians of CPU time, wall time and memory for each, and its counts.
+def bench(name):
+    """Builds a bench target of lar-arrangement; returns its program."""
+    command = ["cargo", "bench", "-p", "lar-arrangement", "--bench", name, "--locked", "--no-run", "--message-format=json"]
+    print("+", *command, file=sys.stderr)
+    lines = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, cwd=HERE).stdout.splitlines()
+    return next(Path(m["executable"]) for m in map(json.loads, lines)
+                if m.get("executable") and m["target"]["name"] == name)
+
+
+def by_turns(engines, file, too_large, repetitions=REPETITIONS, limit=LIMIT):
+    """Runs all engines on a file or directory by turns: medians of CPU time, wall time and memory for each, and what
+    else it prints of its first run.
 
     `too_large` remembers for engines that took too long how large the first engine's result was: they are not tried on
     larger ones.
     """
     runs = {name: [] for name in engines}
     ours = next(iter(engines))
-    for turn in range(REPETITIONS):
+    for turn in range(repetitions):
         for name, command in engines.items():
             if turn == 0 and name in too_large and size(runs[ours]) > too_large[name]:
                 runs[name].append("–")
-            elif turn == 0 or name == ours or (isinstance(runs[name][0], dict) and runs[name][0]["cpu"] <= LONG):
-                runs[name].append(run([*command, file]))
+            elif turn == 0 or is_short(runs[name][0], 10 * LONG if name == ours else LONG):
+                runs[name].append(run([*command, file], limit))
     for name, results in runs.items():
         if results[0] == "time":
             too_large[name] = min(size(runs[ours]), too_large.get(name, math.inf))
@@ -101,8 +110,12 @@ def by_turns(engines, file, too_large):
     return {name: merged(results) for name, results in runs.items()}
 
 
+def is_short(result, seconds):
+    return isinstance(result, dict) and result["cpu"] <= seconds
+
+
 def size(results):
-    return results[0]["counts"][0]
+    return results[0]["counts"][0] if isinstance(results[0], dict) else math.inf
 
 
 def merged(results):
@@ -111,7 +124,7 @@ def merged(results):
     median = {key: statistics.median(r[key] for r in results) for key in ("cpu", "wall", "memory")}
     if any(r["counts"] != results[0]["counts"] for r in results):
         return "varies"
-    return {**median, "counts": results[0]["counts"], "n": len(results)}
+    return {**results[0], **median, "n": len(results)}
 
 
 def machine():

@@ -3,30 +3,27 @@ Prints what that took and what came out as JSON."""
 
 import json
 import sys
-import time
+from pathlib import Path
 
 import numpy
 import shapely
 
+sys.dont_write_bytecode = True
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+from measure import measure  # noqa: E402
 
-def kilobytes(field):
-    with open("/proc/self/status") as status:
-        return next(int(line.split()[1]) for line in status if line.startswith(field))
+
+def arrangement():
+    lines = shapely.union_all(shapely.multilinestrings(shapely.linestrings(segments)))
+    return lines, shapely.polygonize(shapely.get_parts(lines))
 
 
 segments = numpy.loadtxt(sys.argv[1]).reshape(-1, 2, 2)
-with open("/proc/self/clear_refs", "w") as refs:
-    refs.write("5")
-before = kilobytes("VmRSS:")
-wall, cpu = time.perf_counter(), time.process_time()
-lines = shapely.union_all(shapely.multilinestrings(shapely.linestrings(segments)))
-faces = shapely.polygonize(shapely.get_parts(lines))
-cpu, wall = time.process_time() - cpu, time.perf_counter() - wall
-memory = kilobytes("VmHWM:") - before
+(lines, faces), cost = measure(arrangement)
 
 coordinates = shapely.get_coordinates(lines)
 n_vertices = len(numpy.unique(coordinates, axis=0))
 n_edges = len(coordinates) - shapely.get_num_geometries(lines)
 n_faces = shapely.get_num_geometries(faces) + 1
 counts = [int(n_vertices), int(n_edges), int(n_faces), None]
-print(json.dumps({"cpu": cpu, "wall": wall, "memory": 1024 * memory, "counts": counts}))
+print(json.dumps({**cost, "counts": counts}))

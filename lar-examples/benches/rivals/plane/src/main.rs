@@ -2,21 +2,23 @@
 //! `plane ENGINE FILE`. `plane write DIRECTORY` writes the workloads.
 
 mod engines;
+#[path = "../../common/measure.rs"]
+mod measure;
 #[path = "../../../../../lar-arrangement/benches/planar/workloads.rs"]
 mod workloads;
 
-use cpu_time::ProcessTime;
+use measure::{Cost, measure};
 use std::error::Error;
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
-use std::time::Instant;
+use std::time::Duration;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     match &arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["write", directory] => write(Path::new(directory)),
-        [engine, file] => measure(engine, &read(file)?),
+        [engine, file] => run(engine, &read(file)?),
         _ => Err("usage: plane write DIRECTORY | plane ENGINE FILE".into()),
     }
 }
@@ -43,27 +45,10 @@ fn read(file: &str) -> Result<Vec<[f64; 4]>, Box<dyn Error>> {
 }
 
 /// The time and memory of the operation alone, without the counting after it.
-fn measure(engine: &str, segments: &[[f64; 4]]) -> Result<(), Box<dyn Error>> {
+fn run(engine: &str, segments: &[[f64; 4]]) -> Result<(), Box<dyn Error>> {
     let engine = engines::named(engine).ok_or("no such engine")?;
-    // Sets the peak back to what is in use now (proc(5)).
-    fs::write("/proc/self/clear_refs", "5")?;
-    let before = kilobytes("VmRSS:")?;
-    let (wall, cpu) = (Instant::now(), ProcessTime::now());
-    let count = engine(segments)?;
-    let (cpu, wall) = (cpu.elapsed(), wall.elapsed());
-    let memory = kilobytes("VmHWM:")? - before;
+    let (count, Cost { cpu, wall, memory }) = measure(Duration::ZERO, || engine(segments))?;
     let [v, e, f, c] = count().map(|n| n.map_or("null".to_owned(), |n| n.to_string()));
-    println!(
-        r#"{{"cpu": {}, "wall": {}, "memory": {}, "counts": [{v}, {e}, {f}, {c}]}}"#,
-        cpu.as_secs_f64(),
-        wall.as_secs_f64(),
-        1024 * memory
-    );
+    println!(r#"{{"cpu": {cpu}, "wall": {wall}, "memory": {memory}, "counts": [{v}, {e}, {f}, {c}]}}"#);
     Ok(())
-}
-
-fn kilobytes(field: &str) -> Result<u64, Box<dyn Error>> {
-    let status = fs::read_to_string("/proc/self/status")?;
-    let line = status.lines().find_map(|line| line.strip_prefix(field)).ok_or("no such field")?;
-    Ok(line.trim().trim_end_matches(" kB").parse()?)
 }

@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+"""Spatial arrangements and Booleans compared with other libraries: `space.py DIRECTORY [--only WORKLOAD ...]`.
+
+Fetches and builds the others in DIRECTORY (which is made; about 1.5 GB), writes the workloads of
+lar-arrangement/benches/space there, runs all libraries on them by turns, on one thread and on two, checks that areas,
+volumes and cells are the same, and writes the section on space and the picture of docs/benchmarks.md. With `--only` the
+other rows are those of the last run in DIRECTORY. trueform's licence allows only non-commercial use: `--without
+trueform` leaves it out. Needs Linux with cargo, taskset, and Python with venv.
+"""
+
+import argparse
+import json
+import math
+import os
+import sys
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+import harness  # noqa: E402, as its byte code must not land beside it
+
+sys.path.append(str(harness.HERE / "space"))
+import report  # noqa: E402
+
+# Turns on one thread, on two threads.
+REPETITIONS = {1: 5, 2: 3}
+# Seconds after which a process is given up.
+LIMIT = 100
+# What short operations are repeated for, in one process.
+SECONDS = 0.2
+PACKAGES = {"trueform": "trueform==0.10.7", "manifold3d": "manifold3d==3.5.4", "meshlib": "meshlib==3.1.4.297"}
+RUST = ["manifold-rust", "boolmesh"]
+# Too many operands to be united two at a time, and nobody else's measure: for growth only.
+OURS_ONLY = ["scattered-100k", "scattered-1M"]
+WORKLOADS = [
+    "three-cubes", "cubes-10", "cubes-30", "cubes-100", "cubes-300",
+    "spheres-5k", "spheres-20k", "spheres-80k", "spheres-320k", "spheres-1M",
+    "shifted-128", "shifted-2", "shifted-welded", "coplanar-128", "coplanar-2", "coplanar-welded",
+    "turned-128", "turned-2", "turned-welded", "nested", "holes", "scattered-10k", *OURS_ONLY,
+]  # fmt: skip
+
+
+class Comparison:
+    def __init__(self, directory, without):
+        self.ours = harness.bench("space")
+        self.rust = harness.cargo(directory, "space")
+        self.packages = [name for name in PACKAGES if name not in without]
+        wanted = [PACKAGES[name] for name in self.packages]
+        self.python = harness.python(directory, "numpy==2.4.6", "matplotlib==3.11.2", *wanted)
+        self.workloads = directory / "space"
+        # What an operation takes too long for is not tried on larger workloads of its family.
+        self.too_large = {}
+
+    def pinned(self, threads, *command):
+        """The command on the first processors only: the other libraries start as many threads as they may use."""
+        return ["taskset", "-c", f"0-{threads - 1}", *command]
+
+    def lar(self, threads, *options):
+        repeat = ["--repeat", "25", "--seconds", SECONDS]
+        return self.pinned(threads, self.ours, "--threads", threads, *repeat, *options, "--json")
+
+    def theirs(self, name, threads, operation):
+        if name in RUST:
+            return self.pinned(threads, self.rust, name, operation, SECONDS)
+        return self.pinned(threads, self.python, harness.HERE / "space" / "engines.py", name, operation, SECONDS)
+
+    def measured(self, workload):
+        """For "boolean" and "cells", for one thread and for two: what each library took and gave."""
+        directory = self.workloads / workload
+        if workload not in OURS_ONLY and not directory.exists():
+            harness.call(self.ours, "--json", workload, "--write", self.workloads)
+        names = [] if workload in OURS_ONLY else [*self.packages, *RUST]
+        boolean = "difference" if workload == "holes" else "union"
+        row = {}
+        for threads in range(1, min(os.cpu_count(), 2) + 1):
+            rivals = {name: self.theirs(name, threads, boolean) for name in names}
+            engines = {"lar": self.lar(threads, "--boolean"), **rivals}
+            row[f"boolean {threads}"] = self.run(engines, workload, "boolean", threads)
+            rivals = {name: self.theirs(name, threads, "cells") for name in names if name == "trueform"}
+            engines = {"lar": self.lar(threads), **rivals}
+            row[f"cells {threads}"] = self.run(engines, workload, "cells", threads)
+        return row
+
+    def run(self, engines, workload, operation, threads):
+        family = self.too_large.setdefault((workload.split("-")[0], operation, threads), {})
+        return harness.by_turns(engines, Path(workload), family, REPETITIONS[threads], LIMIT)
+
+
+def check(workload, row):
+    """Stops when we contradict ourselves; marks the others' results that are not the same as ours."""
+    for what, results in row.items():
+        assert isinstance(results["lar"], dict), f"{workload}: {what}: {results['lar']}"
+    one, cells = row["boolean 1"]["lar"], row["cells 1"]["lar"]
+    for ours, what in [(one, "boolean 2"), (cells, "cells 2")]:
+        assert what not in row or row[what]["lar"]["counts"] == ours["counts"], f"{workload}: threads change the counts"
+    if workload != "holes":
+        assert math.isclose(one["volume"], cells["volume"], rel_tol=1e-9), f"{workload}: cells do not add up to the union"
+    for what, results in row.items():
+        ours = results["lar"]
+        for name, result in results.items():
+            if name == "lar" or isinstance(result, str):
+                continue
+            # meshlib computes in 32 bits.
+            same = [math.isclose(ours[k], result[k], rel_tol=1e-6) for k in ("area", "volume")]
+            if what.startswith("cells"):
+                same = [ours["counts"][3] == result["counts"][0], math.isclose(ours["volume"], result["volume"], rel_tol=1e-6)]
+            result["agrees"] = all(same)
+    rivals = [r for name, r in row["boolean 1"].items() if name != "lar" and isinstance(r, dict)]
+    assert not rivals or any(r["agrees"] for r in rivals), f"{workload}: nobody else finds {one['area']}, {one['volume']}"
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("directory", type=Path)
+    parser.add_argument("--only", nargs="+", choices=WORKLOADS, default=WORKLOADS, metavar="WORKLOAD")
+    parser.add_argument("--without", nargs="+", choices=PACKAGES, default=[], metavar="LIBRARY")
+    return parser.parse_args()
+
+
+def main():
+    options = arguments()
+    directory = options.directory.resolve()
+    directory.mkdir(parents=True, exist_ok=True)
+    comparison = Comparison(directory, options.without)
+    comparison.workloads.mkdir(exist_ok=True)
+    os.chdir(comparison.workloads)
+    results = directory / "space.json"
+    rows = json.loads(results.read_text()) if results.exists() and options.only != WORKLOADS else {}
+    for workload in options.only:
+        rows[workload] = comparison.measured(workload)
+        check(workload, rows[workload])
+        results.write_text(json.dumps(rows, indent=1))
+    rows = {workload: rows[workload] for workload in WORKLOADS if workload in rows}
+    harness.write_section("space", report.section(rows))
+    picture = harness.DOCUMENT.with_name("benchmarks-space.svg")
+    harness.call(comparison.python, harness.HERE / "space" / "picture.py", results, picture)
+
+
+if __name__ == "__main__":
+    main()

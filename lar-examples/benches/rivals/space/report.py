@@ -1,0 +1,239 @@
+"""The section on space of docs/benchmarks.md."""
+
+import math
+
+import harness
+
+RIVALS = ["trueform", "manifold3d", "meshlib", "manifold-rust", "boolmesh"]
+# Families whose members differ in size only.
+GROWTH = {"spheres": ["5k", "20k", "80k", "320k", "1M"], "scattered": ["10k", "100k", "1M"]}
+# General position, and the same number of operands in common planes.
+GENERAL, DEGENERATE = "cubes-100", ["shifted-128", "coplanar-128", "turned-128"]
+
+
+def times(result):
+    return isinstance(result, dict)
+
+
+def is_right(result):
+    return times(result) and result["agrees"]
+
+
+def milliseconds(result, key="cpu"):
+    if not times(result):
+        return result or "–"
+    value = 1000 * result[key]
+    digits = 2 if value < 1 else 1 if value < 100 else 0
+    return f"{value:.{digits}f}" + ("¹" if result["n"] == 1 else "") + ("" if result.get("agrees", True) else " ✗")
+
+
+def ratio(theirs, ours, key="cpu"):
+    return f"{ours[key] / theirs[key]:.2f}" if times(theirs) else "–"
+
+
+def fastest(results, key="cpu", names=RIVALS):
+    """Of those that give the same solid."""
+    right = [name for name in names if is_right(results.get(name))]
+    return min(right, key=lambda name: results[name][key], default=None)
+
+
+def table(head, rows):
+    yield "| " + " | ".join(head) + " |"
+    yield "|---|" + "---:|" * (len(head) - 1)
+    for row in rows:
+        yield "| " + " | ".join(map(str, row)) + " |"
+
+
+def with_rivals(rows):
+    return {w: row for w, row in rows.items() if len(row["boolean 1"]) > 1}
+
+
+def booleans(rows, threads, key):
+    yield from table(
+        ["workload", "triangles in", "lar", *RIVALS, "lar ÷ fastest"],
+        (
+            [name, f"{ours['facets']:,}", milliseconds(ours, key), *(milliseconds(results.get(r), key) for r in RIVALS),
+             f"{ours[key] / results[best][key]:.2f} ({best})" if best else "–"]
+            for name, results in ((w, row[f"boolean {threads}"]) for w, row in with_rivals(rows).items())
+            for ours, best in [(results["lar"], fastest(results, key))]
+        ),
+    )  # fmt: skip
+
+
+def cells(rows):
+    yield from table(
+        ["workload", "V / E / F / C", "lar", "trueform", "its C", "lar ÷ trueform"],
+        (
+            [name, " / ".join(f"{n:,}" for n in ours["counts"]), milliseconds(ours), milliseconds(theirs),
+             f"{theirs['counts'][0]:,}" if times(theirs) else "–", ratio(theirs, ours)]
+            for name, results in ((w, row["cells 1"]) for w, row in rows.items())
+            for ours, theirs in [(results["lar"], results.get("trueform"))]
+        ),
+    )  # fmt: skip
+
+
+def threads(rows):
+    yield from table(
+        ["workload", "cells, 1 thread", "2 threads", "ratio", "Boolean, 1 thread", "2 threads", "ratio",
+         "fastest other, 2 threads", "lar ÷ fastest"],
+        (
+            [name,
+             *(x for op in ("cells", "boolean") for one, two in [(row[f"{op} 1"]["lar"], row[f"{op} 2"]["lar"])]
+               for x in (milliseconds(one, "wall"), milliseconds(two, "wall"), f"{one['wall'] / two['wall']:.2f}")),
+             f"{milliseconds(row['boolean 2'][best], 'wall')} ({best})" if best else "–",
+             f"{row['boolean 2']['lar']['wall'] / row['boolean 2'][best]['wall']:.2f}" if best else "–"]
+            for name, row in rows.items() if "cells 2" in row
+            for best in [fastest(row["boolean 2"], "wall")]
+        ),
+    )  # fmt: skip
+
+
+def size(result):
+    """Triangles in, pairs of them that cross, cells out."""
+    return result["facets"] + result["pairs_crossing"] + result["counts"][3]
+
+
+def unit(result):
+    return 1e9 * result["cpu"] / size(result)
+
+
+def memory_share(result):
+    return result["memory"] / (1000 * result["facets"] + 500 * result["counts"][3])
+
+
+def costs(rows):
+    yield from table(
+        ["workload", "triangles", "crossing pairs", "cells", "ns per each of these", "MB", "bytes per triangle",
+         "share of 1 kB a triangle + 500 B a cell", "exact fallbacks per pair tested"],
+        (
+            [name, f"{r['facets']:,}", f"{r['pairs_crossing']:,}", f"{r['counts'][3]:,}", f"{unit(r):.0f}",
+             f"{r['memory'] / 1e6:.1f}", f"{r['memory'] / r['facets']:.0f}", f"{memory_share(r):.2f}",
+             f"{r['exact_fallbacks'] / max(r['pairs_tested'], 1):.2f}"]
+            for name, r in ((w, row["cells 1"]["lar"]) for w, row in rows.items())
+        ),
+    )  # fmt: skip
+
+
+def stages(rows):
+    names = list(dict.fromkeys(name for row in rows.values() for name, _ in row["cells 1"]["lar"]["stages"]))
+    yield from table(
+        ["workload", *names],
+        ([w, *(f"{100 * dict(r['stages']).get(name, 0) / sum(t for _, t in r['stages']):.0f}" for name in names)]
+         for w, r in ((w, row["cells 1"]["lar"]) for w, row in rows.items())),
+    )  # fmt: skip
+
+
+def targets(rows):
+    """What was to be reached, the worst that was measured, and on which workload."""
+    def worst(values):
+        values = list(values)
+        return max(values) if values else None
+
+    def per_rival(workloads, what, names, key="cpu"):
+        for w in workloads:
+            results = rows.get(w, {}).get(what, {})
+            best = fastest(results, key, names)
+            if best:
+                yield results["lar"][key] / results[best][key], f"{w}, {best}"
+
+    def growth():
+        for family, sizes in GROWTH.items():
+            units = [unit(rows[w]["cells 1"]["lar"]) for w in (f"{family}-{s}" for s in sizes) if w in rows]
+            if len(units) > 1:
+                yield max(units) / min(units), family
+
+    def memory():
+        for w, row in rows.items():
+            if row["cells 1"]["lar"]["facets"] >= 10_000:
+                yield memory_share(row["cells 1"]["lar"]), w
+
+    def degenerate():
+        general = rows.get(GENERAL, {}).get("cells 1", {}).get("lar")
+        for w in DEGENERATE if general else []:
+            if w in rows:
+                r = rows[w]["cells 1"]["lar"]
+                yield (r["cpu"] / r["counts"][3]) / (general["cpu"] / general["counts"][3]), w
+
+    def halves():
+        for w, row in rows.items():
+            if "cells 2" in row and row["cells 1"]["lar"]["facets"] > 100_000:
+                one, two = row["cells 1"]["lar"], row["cells 2"]["lar"]
+                yield two["wall"] / one["wall"], f"{w}: {one['wall'] / two['wall']:.2f} times as fast"
+
+    three = RIVALS[:3]
+    spheres = [f"spheres-{s}" for s in GROWTH["spheres"][1:]]
+    trueform = [(rows[w]["cells 1"]["lar"]["cpu"] / rows[w]["cells 1"]["trueform"]["cpu"], w)
+                for w in rows if times(rows[w]["cells 1"].get("trueform"))]
+    asked = [
+        ("all cells ÷ trueform's cells, every workload", 0.5, worst(trueform)),
+        ("union ÷ fastest of manifold3d, trueform, meshlib: spheres", 0.8, worst(per_rival(spheres, "boolean 1", three))),
+        ("the same: 100 and 300 cubes", 1.0, worst(per_rival(["cubes-100", "cubes-300"], "boolean 1", three))),
+        ("union of 300 cubes ÷ manifold3d", 1.0, worst(per_rival(["cubes-300"], "boolean 1", ["manifold3d"]))),
+        ("time per triangle, crossing pair and cell: most ÷ least of a family", 1.5, worst(growth())),
+        ("memory ÷ (1 kB a triangle + 500 B a cell), from 10,000 triangles", 1.0, worst(memory())),
+        ("wall time on two threads ÷ on one, above 100,000 triangles", 1 / 1.7, worst(halves())),
+        ("time per cell of grids in common planes ÷ of 100 random cubes", 2.0, worst(degenerate())),
+    ]  # fmt: skip
+    yield from table(
+        ["target", "at most", "worst measured", "where", "met"],
+        ([text, f"{limit:.2f}", f"{found[0]:.2f}", found[1], "yes" if found[0] <= limit else "**no**"]
+         for text, limit, found in asked if found),
+    )  # fmt: skip
+
+
+def text(lines):
+    return "\n".join(lines)
+
+
+def section(rows):
+    return f"""## Space
+
+Written by `lar-examples/benches/rivals/space.py DIRECTORY`, which fetches the others, builds them, and runs all of them
+by turns on the same arrays: {harness.machine()}.
+
+Milliseconds of the operation alone, arrays in and arrays out, each run in a process of its own that may use one
+processor, or two; medians of 5 runs on one, of 3 on two, and within a run of as many repetitions as fit into 0.2 s
+(¹: over {harness.LONG:.0f} s, run once; *time*: given up; *fails*: stops with an error; –: not tried). ✗: area, volume
+or number of cells differ from ours. *lar* is given triangles as the others are.
+
+![Time against the number of triangles, spheres and cubes](benchmarks-space.svg)
+
+### One Boolean
+
+The union of all operands (*holes*: the first without the others), CPU time on one thread. *lar* gives the simplified
+surface as a chain complex.
+
+{text(booleans(rows, 1, "cpu"))}
+
+### All cells
+
+CPU time on one thread. *lar* gives ∂1, ∂2, ∂3, provenance and membership; *trueform* a mesh for every cell, without
+operators. C counts the exterior.
+
+{text(cells(rows))}
+
+The blocks of *turned* are turned by 30°, and rounding puts what was one plane into several; *lar* makes them one again
+as far as rounding explains (decision 0008). In *turned-128* and *turned-2* it then finds as many cells as the symmetry of
+the scene allows: a multiple of 16, and the exterior. Without that there are slivers between the planes, each of them a
+cell.
+
+### Two threads
+
+Wall time.
+
+{text(threads(rows))}
+
+### Growth, memory, exact arithmetic
+
+All cells, one thread; memory is the peak of the process during the operation beyond what it had before.
+
+{text(costs(rows))}
+
+Share of the stages in the time, in per cent:
+
+{text(stages(rows))}
+
+### Targets
+
+{text(targets(rows))}
+"""
