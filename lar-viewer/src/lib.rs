@@ -29,6 +29,7 @@ mod palette;
 mod pick;
 mod scene;
 pub mod session;
+mod text;
 mod view;
 #[cfg(feature = "window")]
 mod window;
@@ -45,6 +46,9 @@ pub use orientation::{Orientation, StandardView};
 pub use palette::{Coloring, INK, PALETTE, Rgb, SLATE, WHITE, palette_color};
 pub use pick::Hit;
 pub use scene::{Appearance, CellRef, Drawable, Explosion, Group, GroupId, LEVELS, Scene};
+pub use text::{
+    HorizontalAlign, Label, NUMBER_COLORS, TextStyle, VerticalAlign, push_numbers, text_model, text_segments,
+};
 pub use view::View;
 #[cfg(feature = "window")]
 pub use window::view;

@@ -145,7 +145,7 @@ impl Prepared<'_> {
     }
 
     /// What is seen within `radius` pixels (64 at most) of a pixel of the picture, counted from the left and the top: the
-    /// nearest dot, else line, else triangle.
+    /// nearest label, else dot, else line, else triangle.
     ///
     /// # Errors
     /// As `render`, and `InvalidView` when the pixel lies outside the picture.

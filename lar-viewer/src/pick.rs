@@ -25,6 +25,7 @@ impl Hit {
     pub(crate) fn new(scene: &Scene, view: &View, size: [u32; 2], seen: Seen) -> Self {
         let Seen { drawable, element, pixel } = seen;
         let shown = &scene.drawables()[drawable];
+        let element = shown.label_of_stroke(element).unwrap_or(element);
         let moved = DVec3::from(scene.displacement(shown, &view.explode, scene.center()));
         let [width, height] = size.map(f64::from);
         let cursor = [f64::from(pixel[0]) + 0.5 - 0.5 * width, f64::from(pixel[1]) + 0.5 - 0.5 * height];

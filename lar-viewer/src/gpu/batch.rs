@@ -10,8 +10,8 @@
 //! triangle are stored in order of position: triangles that two cells share then get bit-identical depths.
 
 use super::frame::Placement;
-use crate::Scene;
 use crate::scene::{Drawable, Extents, Shape, point3};
+use crate::{Label, Scene, TextStyle, text};
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 use lar_core::TriangleMesh;
@@ -54,16 +54,39 @@ pub(crate) struct Dot {
     pub(crate) size: f32,
 }
 
+/// A stroke of a label.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub(crate) struct Stroke {
+    /// Where the label is.
+    pub(crate) anchor: [f32; 3],
+    pub(crate) part: u32,
+    /// Both ends relative to it, x to the right and y up, in units of 1/16 pixel.
+    pub(crate) ends: [i16; 4],
+    /// Pixels; negative for what is drawn over everything.
+    pub(crate) width: f32,
+}
+
 /// Kinds of geometry, as indices of arrays.
 pub(crate) const MESH: usize = 0;
 pub(crate) const LINES: usize = 1;
 pub(crate) const POINTS: usize = 2;
+pub(crate) const STROKES: usize = 3;
 /// Number of kinds.
-pub(crate) const KINDS: usize = 3;
+pub(crate) const KINDS: usize = 4;
+/// Vertices of one instance of each kind; triangles are drawn by their vertices. A stroke has a rim under its core.
+pub(crate) const VERTICES: [u32; KINDS] = [3, 4, 4, 12];
 
 /// Bytes of one element of each kind; a triangle is an element.
 pub(crate) const ELEMENT_BYTES: [usize; KINDS] =
-    [3 * size_of::<Vertex>(), size_of::<Line>(), size_of::<Dot>()];
+    [3 * size_of::<Vertex>(), size_of::<Line>(), size_of::<Dot>(), size_of::<Stroke>()];
+
+/// Units of the ends of strokes in a pixel.
+const STROKE_UNITS: f64 = 16.0;
+/// Width of strokes, in parts of the height of capitals.
+const STROKE_WIDTH: f32 = 0.15;
+/// Strokes are at least this many pixels wide.
+const THINNEST_STROKE: f32 = 1.2;
 
 /// Where a part's elements are from and where they lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,6 +112,7 @@ pub(crate) struct Batch {
     pub(crate) triangles: Vec<[Vertex; 3]>,
     pub(crate) lines: Vec<Line>,
     pub(crate) dots: Vec<Dot>,
+    pub(crate) strokes: Vec<Stroke>,
 }
 
 impl Batch {
@@ -107,6 +131,7 @@ impl Batch {
             triangles: Vec::new(),
             lines: Vec::new(),
             dots: Vec::new(),
+            strokes: Vec::new(),
         };
         let numbered = || scene.drawables().iter().enumerate();
         let is_opaque = |d: &Drawable| 1.0 <= d.appearance.opacity;
@@ -134,6 +159,23 @@ impl Batch {
                     }
                 }
             }
+            Shape::Labels { labels, style, on_top } => self.push_labels(index, labels, style, *on_top),
+        }
+    }
+
+    fn push_labels(&mut self, index: usize, labels: &[Label], style: &TextStyle, on_top: bool) {
+        let width = (STROKE_WIDTH * style.size as f32).max(THINNEST_STROKE);
+        let width = if on_top { -width } else { width };
+        let place = |label: &Label| {
+            let anchor = self.place(label.at);
+            let ends =
+                |[a, b]: [[f64; 2]; 2]| [a[0], a[1], b[0], b[1]].map(|x| (x * STROKE_UNITS).round() as i16);
+            let of_label = text::strokes(&label.text, style).into_iter();
+            of_label.map(move |s| Stroke { anchor, part: 0, ends: ends(s), width })
+        };
+        let placed: Vec<Stroke> = labels.iter().flat_map(place).collect();
+        for (part, range) in self.new_parts(index, STROKES, self.strokes.len(), placed.len()) {
+            self.strokes.extend(placed[range].iter().map(|&stroke| Stroke { part, ..stroke }));
         }
     }
 

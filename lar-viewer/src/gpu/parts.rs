@@ -41,7 +41,7 @@ impl Part {
         let kind = match &drawable.shape {
             Shape::Mesh { lit: true, .. } => LIT,
             Shape::Lines { cell_edges: true, .. } => CELL_EDGE,
-            Shape::Mesh { .. } | Shape::Lines { .. } | Shape::Points { .. } => 0,
+            Shape::Mesh { .. } | Shape::Lines { .. } | Shape::Points { .. } | Shape::Labels { .. } => 0,
         };
         let flag = |is_set: bool, flag| if is_set { flag } else { 0 };
         let flags = kind | flag(appearance.highlighted, HIGHLIGHTED) | flag(drawable.clipped, CLIPPED);

@@ -1,6 +1,6 @@
 //! What is seen near a pixel: the scene drawn once more, only around that pixel, with ids for colours.
 
-use super::batch::{LINES, POINTS};
+use super::batch::{LINES, POINTS, STROKES};
 use super::frame::{Frame, Raster};
 use super::pipelines::{DEPTH, ID};
 use super::renderer::{Renderer, draw_runs, frame_group};
@@ -22,7 +22,7 @@ pub(crate) struct Seen {
 }
 
 impl Renderer {
-    /// The nearest dot, else line, else triangle that is seen within `radius` pixels of a pixel of a picture.
+    /// The nearest label, else dot, else line, else triangle that is seen within `radius` pixels of a pixel of a picture.
     pub(crate) fn pick(
         &self,
         scene: &SceneBuffers,
@@ -50,8 +50,10 @@ impl Renderer {
             let distance = dx * dx + dy * dy;
             let pixel = [(pixel[0] + x).checked_sub(radius)?, (pixel[1] + y).checked_sub(radius)?];
             let in_reach = distance <= radius * radius && pixel[0] < width && pixel[1] < height;
-            let rank =
-                [POINTS, LINES].into_iter().position(|k| Some(k) == scene.kind(id[0] - 1)).unwrap_or(2);
+            let rank = [STROKES, POINTS, LINES]
+                .into_iter()
+                .position(|k| Some(k) == scene.kind(id[0] - 1))
+                .unwrap_or(3);
             in_reach.then_some(((rank, distance, i), Seen { drawable, element, pixel }))
         });
         Ok(candidates.min_by_key(|(order, _)| *order).map(|(_, seen)| seen))

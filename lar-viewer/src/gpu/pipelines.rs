@@ -3,7 +3,7 @@
 //! Each kind of geometry has three pipelines: *opaque*, with a depth test, *layer*, which stores fragments in the lists of
 //! the A-buffer, and *id*, which tells what is seen where. Two more steps work on the whole screen.
 
-use super::batch::{Dot, KINDS, Line, Vertex};
+use super::batch::{Dot, KINDS, Line, Stroke, Vertex};
 use super::frame::Frame;
 use super::scene::Way;
 use super::shaders::{self, Sources};
@@ -30,6 +30,10 @@ const LINE_ATTRIBUTES: [VertexAttribute; 5] =
 /// What the point shader reads per instance, in the order of the fields of `Dot`.
 const POINT_ATTRIBUTES: [VertexAttribute; 3] =
     wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Float32];
+
+/// What the label shader reads per instance, in the order of the fields of `Stroke`.
+const STROKE_ATTRIBUTES: [VertexAttribute; 4] =
+    wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Sint16x4, 3 => Float32];
 
 /// The ways of drawing one kind of geometry.
 pub(crate) struct Ways {
@@ -69,7 +73,7 @@ impl Pipelines {
         let reduce = pipeline_layout(device, &[&frame_layout, &samples_layout]);
         let maker = Maker { device, opaque: &opaque, layer: &layer };
         Self {
-            kinds: [maker.mesh(), maker.lines(), maker.points()],
+            kinds: [maker.mesh(), maker.lines(), maker.points(), maker.strokes()],
             resolve: whole_screen(device, shaders::RESOLVE, "resolve", &layer, Some(OVER)),
             reduce: whole_screen(device, shaders::REDUCE, "reduce", &reduce, None),
             frame_layout,
@@ -234,6 +238,19 @@ impl Maker<'_> {
         })
     }
 
+    fn strokes(&self) -> Ways {
+        self.ways(&Kind {
+            sources: &shaders::LABELS,
+            name: "label",
+            topology: wgpu::PrimitiveTopology::TriangleList,
+            buffer: wgpu::VertexBufferLayout {
+                array_stride: size_of::<Stroke>() as u64,
+                step_mode: wgpu::VertexStepMode::Instance,
+                attributes: &STROKE_ATTRIBUTES,
+            },
+        })
+    }
+
     fn ways(&self, kind: &Kind<'_>) -> Ways {
         let target = |format, write_mask| Some(wgpu::ColorTargetState { format, blend: None, write_mask });
         let depth = wgpu::DepthStencilState {
@@ -311,5 +328,8 @@ mod tests {
         check_offsets(&LINE_ATTRIBUTES, &line, size_of::<Line>());
         let point = [offset_of!(Dot, center), offset_of!(Dot, part), offset_of!(Dot, size)];
         check_offsets(&POINT_ATTRIBUTES, &point, size_of::<Dot>());
+        let stroke = [offset_of!(Stroke, anchor), offset_of!(Stroke, part), offset_of!(Stroke, ends)];
+        let stroke = [&stroke[..], &[offset_of!(Stroke, width)]].concat();
+        check_offsets(&STROKE_ATTRIBUTES, &stroke, size_of::<Stroke>());
     }
 }

@@ -307,7 +307,7 @@ pub(super) fn frame_group(
     }))
 }
 
-/// Draws stretches of elements: triangles by their vertices, all else as four corners an instance.
+/// Draws stretches of elements: triangles by their vertices, all else as a few corners an instance.
 pub(super) fn draw_runs(
     pass: &mut RenderPass<'_>,
     pipelines: &Pipelines,
@@ -321,7 +321,7 @@ pub(super) fn draw_runs(
         if *kind == batch::MESH {
             pass.draw(3 * elements.start..3 * elements.end, 0..1);
         } else {
-            pass.draw(0..4, elements.clone());
+            pass.draw(0..batch::VERTICES[*kind], elements.clone());
         }
     }
 }

@@ -55,6 +55,7 @@ impl SceneBuffers {
                 upload(context, "triangles", &batch.triangles, capacity[batch::MESH])?,
                 upload(context, "segments", &batch.lines, capacity[batch::LINES])?,
                 upload(context, "points", &batch.dots, capacity[batch::POINTS])?,
+                upload(context, "strokes of labels", &batch.strokes, capacity[batch::STROKES])?,
             ],
             capacity,
             spans: batch.spans,
@@ -102,7 +103,8 @@ impl SceneBuffers {
         self.spans.get(part as usize).map(|span| span.kind)
     }
 
-    /// Drawable and element of what the id pass found: a part, and the index of an element in its buffer.
+    /// Drawable and element of what the id pass found: a part, and the index of an element in its buffer. For labels it is
+    /// the index of the stroke in the drawable.
     pub(crate) fn origin(&self, part: u32, index: u32) -> Option<(usize, usize)> {
         let span = self.spans.get(part as usize)?;
         let in_buffer = span.start % self.capacity[span.kind];

@@ -33,6 +33,12 @@ pub(crate) const POINTS: Sources = Sources {
     layer: module!("common", "points", "layers", "store", "points_layer"),
 };
 
+/// Strokes of labels.
+pub(crate) const LABELS: Sources = Sources {
+    solid: module!("common", "labels"),
+    layer: module!("common", "labels", "layers", "store", "labels_layer"),
+};
+
 /// Blending of the stored layers.
 pub(crate) const RESOLVE: &str = module!("common", "layers", "resolve");
 
@@ -60,7 +66,7 @@ mod tests {
 
     #[test]
     fn every_shader_is_valid_without_optional_capabilities() {
-        for (sources, name) in [(MESH, "mesh"), (LINES, "line"), (POINTS, "point")] {
+        for (sources, name) in [(MESH, "mesh"), (LINES, "line"), (POINTS, "point"), (LABELS, "label")] {
             let vertex = ["opaque", "layer", "id"].map(|way| format!("{name}_{way}_vertex"));
             let solid = [format!("{name}_opaque"), format!("{name}_id")];
             check_entry_points(sources.solid, &[&vertex[..], &solid].concat());

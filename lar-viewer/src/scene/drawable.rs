@@ -1,7 +1,7 @@
-//! Drawables: named triangles, segments or dots, with what they show and how they look.
+//! Drawables: named triangles, segments, dots or labels, with what they show and how they look.
 
 use super::{Appearance, CellRef, GroupId, point3};
-use crate::{Bounds, Rgb};
+use crate::{Bounds, Label, Rgb, TextStyle, text};
 use lar_core::TriangleMesh;
 
 /// The geometry of a drawable.
@@ -10,9 +10,10 @@ pub(crate) enum Shape {
     Mesh { mesh: TriangleMesh, lit: bool },
     Lines { segments: Vec<[[f64; 3]; 2]>, width: f32, cell_edges: bool },
     Points { points: Vec<[f64; 3]>, size: f32 },
+    Labels { labels: Vec<Label>, style: TextStyle, on_top: bool },
 }
 
-/// One named thing to draw: triangles, segments or points in one colour.
+/// One named thing to draw: triangles, segments, points or labels in one colour.
 ///
 /// ```
 /// use lar_viewer::Drawable;
@@ -60,6 +61,15 @@ impl Drawable {
         Self::new(name, Shape::Points { points: points.into_iter().collect(), size: 6.0 }, crate::INK)
     }
 
+    /// Texts that face the camera at constant size on the screen, with a dark or light rim. They are hidden by what lies
+    /// before their anchors.
+    #[doc(alias = "GLText")]
+    #[must_use]
+    pub fn labels(name: impl Into<String>, labels: impl IntoIterator<Item = Label>) -> Self {
+        let labels = labels.into_iter().collect();
+        Self::new(name, Shape::Labels { labels, style: TextStyle::default(), on_top: false }, crate::INK)
+    }
+
     fn new(name: impl Into<String>, shape: Shape, color: Rgb) -> Self {
         Self {
             name: name.into(),
@@ -105,7 +115,7 @@ impl Drawable {
         Self { cell: Some(cell), ..self }
     }
 
-    /// Its triangles, segments or dots show these cells, one each: the faces, edges and vertices that bound the cell
+    /// Its triangles, segments, dots or labels show these cells, one each: the faces, edges and vertices that bound the cell
     /// which the whole shows.
     #[must_use]
     pub fn element_cells(self, cells: impl IntoIterator<Item = CellRef>) -> Self {
@@ -145,6 +155,24 @@ impl Drawable {
         self
     }
 
+    /// Attributes of the text of labels. No effect on other shapes.
+    #[must_use]
+    pub fn text_style(mut self, text_style: TextStyle) -> Self {
+        if let Shape::Labels { style, .. } = &mut self.shape {
+            *style = text_style;
+        }
+        self
+    }
+
+    /// Labels drawn over everything else. No effect on other shapes.
+    #[must_use]
+    pub fn on_top(mut self) -> Self {
+        if let Shape::Labels { on_top, .. } = &mut self.shape {
+            *on_top = true;
+        }
+        self
+    }
+
     /// Its name.
     #[must_use]
     pub fn name(&self) -> &str {
@@ -169,23 +197,24 @@ impl Drawable {
         self.group
     }
 
-    /// The cell that one of its triangles, segments or dots shows: its own, or that of the whole.
+    /// The cell that one of its triangles, segments, dots or labels shows: its own, or that of the whole.
     #[must_use]
     pub fn cell_of_element(&self, element: usize) -> Option<CellRef> {
         self.element_cells.get(element).copied().or(self.cell)
     }
 
-    /// Number of its triangles, segments or dots.
+    /// Number of its triangles, segments, dots or labels.
     #[must_use]
     pub fn n_elements(&self) -> usize {
         match &self.shape {
             Shape::Mesh { mesh, .. } => mesh.triangles.len(),
             Shape::Lines { segments, .. } => segments.len(),
             Shape::Points { points, .. } => points.len(),
+            Shape::Labels { labels, .. } => labels.len(),
         }
     }
 
-    /// The corners of one of its triangles (three), segments (two) or dots (one), not exploded; none beyond the last.
+    /// The corners of one of its triangles (three), segments (two), dots or labels (one), not exploded; none beyond the last.
     #[must_use]
     pub fn corners_of_element(&self, element: usize) -> Vec<[f64; 3]> {
         match &self.shape {
@@ -195,7 +224,18 @@ impl Drawable {
             }
             Shape::Lines { segments, .. } => segments.get(element).into_iter().flatten().copied().collect(),
             Shape::Points { points, .. } => points.get(element).into_iter().copied().collect(),
+            Shape::Labels { labels, .. } => labels.get(element).into_iter().map(|l| l.at).collect(),
         }
+    }
+
+    /// The label that has this stroke, counted over all labels; `None` for other shapes.
+    pub(crate) fn label_of_stroke(&self, stroke: usize) -> Option<usize> {
+        let Shape::Labels { labels, style, .. } = &self.shape else { return None };
+        let mut end = 0;
+        labels.iter().position(|label| {
+            end += text::strokes(&label.text, style).len();
+            stroke < end
+        })
     }
 
     /// The box around it, not exploded; `None` when it has no points.
@@ -213,6 +253,7 @@ impl Drawable {
             }
             Shape::Lines { segments, .. } => Box::new(segments.as_flattened().iter().copied()),
             Shape::Points { points, .. } => Box::new(points.iter().copied()),
+            Shape::Labels { labels, .. } => Box::new(labels.iter().map(|l| l.at)),
         }
     }
 }

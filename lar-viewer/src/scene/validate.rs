@@ -2,7 +2,7 @@
 
 use super::appearance::attribute;
 use super::drawable::{Drawable, Shape};
-use crate::ViewerError;
+use crate::{TextStyle, ViewerError};
 use lar_core::TriangleMesh;
 
 /// Largest magnitude of a coordinate: squares and sums of these stay finite in f64.
@@ -10,6 +10,9 @@ pub(crate) const COORDINATE_LIMIT: f64 = 1e100;
 
 /// Largest line width and point size, in pixels.
 const SIZE_LIMIT: f64 = 1000.0;
+
+/// Largest height of capitals in pixels, and largest factor of their spacing.
+const TEXT_LIMIT: f64 = 200.0;
 
 impl Drawable {
     pub(crate) fn validate(&self) -> Result<(), ViewerError> {
@@ -29,7 +32,18 @@ impl Drawable {
                 attribute(&self.name, "the point size", *size, SIZE_LIMIT)?;
                 points.iter().enumerate().try_for_each(|(i, p)| finite(&self.name, "point", i, p))
             }
+            Shape::Labels { labels, style, .. } => {
+                self.validate_text(style)?;
+                labels.iter().enumerate().try_for_each(|(i, l)| finite(&self.name, "label", i, &l.at))
+            }
         }
+    }
+
+    fn validate_text(&self, style: &TextStyle) -> Result<(), ViewerError> {
+        attribute(&self.name, "the size of the text", style.size as f32, TEXT_LIMIT)?;
+        attribute(&self.name, "the spacing of the text", style.spacing as f32, TEXT_LIMIT)?;
+        let turn = style.angle.abs() as f32;
+        attribute(&self.name, "the magnitude of the angle of the text", turn, f64::from(f32::MAX))
     }
 
     fn validate_mesh(&self, mesh: &TriangleMesh) -> Result<(), ViewerError> {
@@ -128,6 +142,14 @@ mod tests {
         check_refused(
             Drawable::mesh("m", square()).group(GroupId(2)),
             "drawable \"m\": group 2 does not exist; the scene has 0 groups",
+        );
+        check_refused(
+            Drawable::labels("t", []).text_style(TextStyle { size: -1.0, ..TextStyle::default() }),
+            "drawable \"t\": the size of the text is -1; it must lie between 0 and 200",
+        );
+        check_refused(
+            Drawable::labels("t", [crate::Label::new("?", [0., 0., f64::NAN])]),
+            "drawable \"t\": coordinate z of label 0 is NaN; it must lie within ±1e100",
         );
         check_refused(
             Drawable::points("p", [[0.; 3]; 2]).element_cells([crate::CellRef::new(0, 1)]),
