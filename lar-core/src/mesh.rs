@@ -21,6 +21,9 @@ impl TriangleMesh {
     /// The enclosed volume, negative when the triangles face inward; for an open mesh the volume of the cones
     /// over its triangles from the middle of its bounding box. O(n).
     ///
+    /// # Panics
+    /// When a triangle names a vertex that there is not.
+    ///
     /// ```
     /// let ball = lar_core::icosphere(5);
     /// let exact = 4. / 3. * std::f64::consts::PI;
@@ -57,6 +60,9 @@ impl TriangleMesh {
     }
 
     /// The sum of the areas of the triangles. O(n).
+    ///
+    /// # Panics
+    /// When a triangle names a vertex that there is not.
     #[must_use]
     pub fn area(&self) -> f64 {
         let doubled = self.corners().map(|[a, b, c]| {
@@ -82,6 +88,9 @@ impl TriangleMesh {
     }
 
     /// The number of parts that no vertex joins; vertices without triangle do not count. O(n α(n)).
+    ///
+    /// # Panics
+    /// When a triangle names a vertex that there is not.
     #[must_use]
     pub fn n_components(&self) -> usize {
         let mut sets = DisjointSets::new(self.points.len());

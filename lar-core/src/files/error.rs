@@ -99,6 +99,12 @@ pub enum Problem {
     /// More vertices or corners than `u32` can number.
     #[error("more than 2^32 - 1 vertices or corners")]
     TooLarge,
+    /// A line so long that it is none.
+    #[error("a line of more than {limit} bytes")]
+    LongLine {
+        /// The most that is read.
+        limit: u64,
+    },
 }
 
 /// Why a file of surfaces or segments cannot be read or written.

@@ -4,7 +4,7 @@ use super::error::{MeshFileError, Place, Problem};
 use super::precision::Digits;
 use crate::FileError;
 use crate::obj::is_utf16;
-use std::io::{self, BufRead};
+use std::io::{self, BufRead, Read};
 use std::path::Path;
 
 /// Where something was read: what errors say.
@@ -63,6 +63,9 @@ impl At<'_> {
 
 /// What some editors put before UTF-8 text.
 pub(crate) const MARK: &[u8] = b"\xef\xbb\xbf";
+
+/// No line of a surface comes near this many bytes; a file without line ends must not be gathered whole.
+const LONGEST_LINE: u64 = 1 << 28;
 
 /// The first characters of what may be a line of megabytes.
 pub(crate) fn clip(text: &str) -> String {
@@ -141,8 +144,11 @@ impl<'a> Source<'a> {
     /// that agrees with ASCII: what is not UTF-8 in them reads as U+FFFD.
     fn advance(&mut self) -> Result<bool, MeshFileError> {
         self.buffer.clear();
-        let read = self.input.read_until(b'\n', &mut self.buffer);
+        let read = (&mut *self.input).take(LONGEST_LINE).read_until(b'\n', &mut self.buffer);
         let n = read.map_err(|source| self.failure(source))?;
+        if n as u64 == LONGEST_LINE {
+            return Err(self.at_line().error(Problem::LongLine { limit: LONGEST_LINE }));
+        }
         self.offset += n as u64;
         self.line += u64::from(n > 0);
         if self.line == 1 && self.buffer.starts_with(MARK) {
@@ -173,6 +179,11 @@ impl<'a> Source<'a> {
             }
             Err(source) => Err(self.failure(source)),
         }
+    }
+
+    /// Makes room for `n` more items, or says that there is none.
+    pub(crate) fn make_room<T>(&self, items: &mut Vec<T>, n: usize) -> Result<(), MeshFileError> {
+        items.try_reserve_exact(n).map_err(|_| self.failure(io::ErrorKind::OutOfMemory.into()))
     }
 
     fn failure(&self, source: io::Error) -> MeshFileError {

@@ -16,7 +16,7 @@ pub(crate) fn read(source: &mut Source<'_>) -> Result<SurfaceFile, MeshFileError
             let (what, announced) = ("items of an element", element.count);
             return Err(source.at_byte().error(Problem::Length { what, announced, needed, found }));
         }
-        items.reserve(element);
+        items.make_room(source, element)?;
         // Items without properties take no bytes, however many are announced.
         let count = if element.properties.is_empty() { 0 } else { element.count };
         for _ in 0..count {
@@ -58,9 +58,10 @@ impl Items {
     }
 
     /// Room for the vertices, whose number the length of the file has vouched for.
-    fn reserve(&mut self, element: &Element) {
-        if element.name == "vertex" {
-            self.coords.reserve_exact(self.n_vertices.saturating_mul(3));
+    fn make_room(&mut self, source: &Source<'_>, element: &Element) -> Result<(), MeshFileError> {
+        match element.name.as_str() {
+            "vertex" => source.make_room(&mut self.coords, self.n_vertices.saturating_mul(3)),
+            _ => Ok(()),
         }
     }
 

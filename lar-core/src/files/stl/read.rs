@@ -35,7 +35,8 @@ pub(crate) fn read_binary(source: &mut Source<'_>) -> Result<SurfaceFile, MeshFi
     let mut facets = Facets::<f32>::new();
     while facets.corners == 0 || source.rest() > 0 {
         let announced = header(source)?;
-        facets.reserve(announced as usize);
+        // The length of the file has vouched for them.
+        source.make_room(&mut facets.indices, 3 * announced as usize)?;
         for _ in 0..announced {
             let at = source.at_byte();
             let facet: [u8; FACET] = source.bytes("a facet of 50 bytes")?;
@@ -197,11 +198,6 @@ struct Facets<T> {
 impl<T: Bits> Facets<T> {
     fn new() -> Self {
         Self { welder: Welder::new(), indices: Vec::new(), corners: 0 }
-    }
-
-    /// Makes room for `n` more facets, which the length of the file has vouched for.
-    fn reserve(&mut self, n: usize) {
-        self.indices.reserve_exact(3 * n);
     }
 
     fn push(&mut self, at: At<'_>, corners: [[T; 3]; 3]) -> Result<(), MeshFileError> {
