@@ -1,162 +1,74 @@
-//! The four panels in which an arrangement is shown (Paoluzzi et al. 2019, Figure 6): input, faces, boundary cycles of
-//! the faces, 3-cells. Everything but the input is exploded, and what is drawn as an edge is an edge of the complex.
+//! The figures of Paoluzzi et al. 2019 and the classic scenes of the first implementation, as scenes for the viewer
+//! with the numbers that belong to them.
+//!
+//! [`COLLECTION`] lists them all; [`Entry::draw`] computes one. A [`Figure`] is one picture: what is drawn, from where,
+//! in how many pixels. It is written as PNG ([`write_figures()`]) or shown in a window.
+//!
+//! ```
+//! use lar_examples::figures::{COLLECTION, Request};
+//! let cubes = COLLECTION.iter().find(|entry| entry.name == "figure6").expect("one of the collection");
+//! let drawn = cubes.draw(&Request::default())?;
+//! assert!(drawn.numbers.starts_with("49 vertices, 88 edges, 47 faces, 8 cells"));
+//! assert_eq!(drawn.figures.len(), 4);
+//! # Ok::<(), lar_examples::CommandError>(())
+//! ```
+
+mod collection;
+mod gallery;
+mod grids;
+mod panels;
+mod parts;
+mod pipeline;
+mod planar;
+mod products;
+mod program;
+mod refectory;
+mod rods;
+mod sheet;
+mod viewpoint;
+mod wrapping;
+
+pub use collection::{COLLECTION, Drawn, Entry, Request};
+pub use panels::panels;
+pub use program::{run_figure1, run_figure2, run_figure3, run_figures};
 
 use crate::CommandError;
-use crate::shapes::{self, Shapes};
-use lar_arrangement::Arrangement;
-use lar_core::{CellId, FaceId, Surface};
-use lar_viewer::{
-    Camera, CellShape, CellStyle, Coloring, Drawable, OffscreenRenderer, Orientation, Scene, View, WHITE,
-    push_axes, push_cells,
-};
+use lar_viewer::{OffscreenRenderer, Scene, View};
 use std::path::Path;
 
-/// Explosion of the faces and of their boundary cycles.
-const FACES_EXPLODE: [f32; 3] = [1.5; 3];
-
-/// Explosion of the 3-cells: far enough to see each of the three cubes' cells from all around, and wider across the
-/// line of sight than up and down.
-const CELLS_EXPLODE: [f32; 3] = [9.0, 7.0, 5.0];
-
-/// Azimuth of the eye for panel a, in radians: the origin lies in front, the axes run to the left and right.
-const INPUT_AZIMUTH: f64 = -2.2;
-
-/// Azimuth of the eye for the exploded panels, in radians: no cell of the three cubes hides another.
-const EXPLODED_AZIMUTH: f64 = 2.55;
-
-/// Elevation of the eye in radians.
-const ELEVATION: f64 = 0.4;
-
-/// Height in pixels of the pictures for which line widths are chosen.
-const DESIGN_HEIGHT: f64 = 800.0;
-
-/// A panel: what is drawn, and from where.
+/// A picture: what is drawn, from where, and in how many pixels.
 #[derive(Clone, Debug)]
 pub struct Figure {
-    /// `a` … `d`.
-    pub panel: char,
-    /// What the panel shows.
+    /// Name of its file without the extension: `figure6a`, `refectory`.
+    pub name: String,
+    /// What it shows.
     pub title: &'static str,
     /// The drawables.
     pub scene: Scene,
     /// Camera, explosion, background.
     pub view: View,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// The same as an SVG document, for pictures of the plane.
+    pub svg: Option<String>,
 }
 
-/// The four panels of an arrangement of `surfaces`, for pictures of this size.
-///
-/// # Errors
-/// When a face cannot be triangulated or a coordinate is too large to be drawn.
-pub fn figures(
-    arrangement: &Arrangement,
-    surfaces: &[Surface],
-    size: [u32; 2],
-) -> Result<[Figure; 4], CommandError> {
-    let shapes = Shapes::new(arrangement)?;
-    let faces = (0..).map(FaceId).take(arrangement.n_faces());
-    let faces: Vec<CellShape> = faces.map(|f| shapes.face(f)).collect::<Result<_, _>>()?;
-    let figure = |panel, title, scene: Scene, explode: [f32; 3], azimuth| {
-        let [width, height] = size.map(f64::from);
-        let orientation = Orientation::turntable(azimuth, ELEVATION);
-        let camera = Camera { orientation, ..Camera::default() };
-        let scale = (height / DESIGN_HEIGHT).clamp(0.5, 4.0) as f32;
-        let view = View { camera, explode: explode.into(), scale, ..View::default() }
-            .fit(&scene, width / height.max(1.0));
-        Figure { panel, title, scene, view }
-    };
-    Ok([
-        figure('a', "input faces", input(surfaces)?, [1.0; 3], INPUT_AZIMUTH),
-        figure('b', "faces, exploded", two_skeleton(faces.clone())?, FACES_EXPLODE, EXPLODED_AZIMUTH),
-        figure(
-            'c',
-            "boundary cycles of the faces, exploded",
-            cycles(&faces)?,
-            FACES_EXPLODE,
-            EXPLODED_AZIMUTH,
-        ),
-        figure('d', "3-cells, exploded", three_cells(arrangement, &shapes)?, CELLS_EXPLODE, EXPLODED_AZIMUTH),
-    ])
-}
-
-/// Draws the panels and writes them as `figure6a.png` … `figure6d.png` into a directory, which is made when it is
-/// missing. Nothing is written unless all could be drawn. Returns the name of the adapter.
+/// Draws the figures and writes them as `NAME.png`, those of the plane also as `NAME.svg`, into a directory, which is
+/// made when it is missing. Nothing is written unless all could be drawn. Returns the name of the adapter.
 ///
 /// # Errors
 /// Without a graphics adapter, and when a picture cannot be drawn or written.
-pub fn write_figures(figures: &[Figure], size: [u32; 2], dir: &Path) -> Result<String, CommandError> {
+pub fn write_figures(figures: &[Figure], dir: &Path) -> Result<String, CommandError> {
     let mut renderer = OffscreenRenderer::new()?;
-    let draw = |f: &Figure| renderer.render(&f.scene, &f.view, size[0], size[1]);
+    let draw = |f: &Figure| renderer.render(&f.scene, &f.view, f.size[0], f.size[1]);
     let images: Vec<_> = figures.iter().map(draw).collect::<Result<_, _>>()?;
     std::fs::create_dir_all(dir).map_err(|source| CommandError::Write { path: dir.to_owned(), source })?;
     for (figure, image) in figures.iter().zip(images) {
-        image.write_png(dir.join(format!("figure6{}.png", figure.panel)))?;
+        image.write_png(dir.join(format!("{}.png", figure.name)))?;
+        if let Some(svg) = &figure.svg {
+            let path = dir.join(format!("{}.svg", figure.name));
+            lar_core::atomic_write(path, |file| file.write_all(svg.as_bytes()))?;
+        }
     }
     Ok(renderer.adapter_name().to_owned())
-}
-
-/// The input surfaces, translucent, with the axes.
-fn input(surfaces: &[Surface]) -> Result<Scene, CommandError> {
-    let mut scene = Scene::new();
-    let style = CellStyle { opacity: 0.45, ..CellStyle::default() };
-    let shapes = (0..).zip(surfaces).map(|(i, s)| shapes::surface(s, i)).collect::<Result<Vec<_>, _>>()?;
-    push_cells(&mut scene, shapes, &style)?;
-    push_frame(&mut scene)?;
-    Ok(scene)
-}
-
-/// All faces in cyclic colours.
-fn two_skeleton(faces: Vec<CellShape>) -> Result<Scene, CommandError> {
-    let mut scene = Scene::new();
-    push_cells(&mut scene, faces, &CellStyle::default())?;
-    Ok(scene)
-}
-
-/// The boundary cycle of each face as a line of its own colour.
-fn cycles(faces: &[CellShape]) -> Result<Scene, CommandError> {
-    let mut scene = Scene::new();
-    for (i, face) in faces.iter().enumerate() {
-        let style =
-            CellStyle { edge_color: Coloring::Cyclic.color(i), edge_width: 3.5, ..CellStyle::default() };
-        let no_triangles = lar_core::TriangleMesh { points: lar_core::Points::new(3), triangles: Vec::new() };
-        push_cells(&mut scene, [CellShape { mesh: no_triangles, ..face.clone() }], &style)?;
-    }
-    Ok(scene)
-}
-
-/// The bounded cells in cyclic colours, the exterior as a white shell in its place, and the axes.
-fn three_cells(arrangement: &Arrangement, shapes: &Shapes<'_>) -> Result<Scene, CommandError> {
-    let mut scene = Scene::new();
-    let bounded = (1..).map(CellId).take(arrangement.n_cells().saturating_sub(1));
-    let cells = bounded.map(|c| shapes.cell(c)).collect::<Result<Vec<_>, _>>()?;
-    push_cells(&mut scene, cells, &CellStyle { opacity: 0.5, ..CellStyle::default() })?;
-    let shell = shapes.cell(CellId(0))?;
-    let cell = shell.cell;
-    scene.push(Drawable::mesh("exterior", shell.mesh).color(WHITE).opacity(0.4).cell(cell))?;
-    scene.push(Drawable::edges("exterior", shell.edges).cell(cell))?;
-    push_frame(&mut scene)?;
-    Ok(scene)
-}
-
-/// Axes of four fifths of the largest coordinate: they reach out of a cube at the origin and do not shrink the rest.
-fn push_frame(scene: &mut Scene) -> Result<(), CommandError> {
-    let reach = scene.bounds([1.0; 3]).map_or(0.0, |b| b.max.into_iter().fold(0.0, f64::max));
-    Ok(push_axes(scene, if 0.0 < reach { 0.8 * reach } else { 1.0 })?)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scenes;
-
-    #[test]
-    fn panels_show_the_cells() {
-        let surfaces = scenes::surfaces(&scenes::three_cubes()).unwrap();
-        let arrangement = lar_arrangement::arrange(&surfaces).unwrap();
-        let figures = figures(&arrangement, &surfaces, [320, 200]).unwrap();
-        let groups = figures.each_ref().map(|f| f.scene.groups().len());
-        assert_eq!(groups, [3, 47, 47, 7]);
-        let seen =
-            |f: &Figure, dim| f.scene.drawables().iter().filter_map(Drawable::cell_ref).any(|c| c.dim == dim);
-        assert!(seen(&figures[1], 2) && seen(&figures[2], 2) && seen(&figures[3], 3));
-    }
 }

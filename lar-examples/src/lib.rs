@@ -1,9 +1,9 @@
-//! Example scenes, the figures drawn from them, and the programs: `lar`, `three_cubes`, and in the plane `figure4`,
-//! `figure5`, `floor_plan`.
+//! Example scenes, the figures drawn from them, and the programs: `lar`, `three_cubes`, `figure1` … `figure5`,
+//! `floor_plan`, and `figures`, which makes all figures.
 //!
 //! The programs are functions of this library with thin mains, so that tests and other programs call the same
-//! code: [`command::run`] is `lar`, [`three_cubes::run`] is `three_cubes`, [`plane`] has the others. None prints except
-//! to the writers that it is given.
+//! code: [`command::run`] is `lar`, [`three_cubes::run`] is `three_cubes`, [`plane`] has those of the plane, `figures`
+//! (with the feature `viewer`) the others. None prints except to the writers that it is given.
 //!
 //! ```
 //! use lar_examples::scenes;

@@ -50,6 +50,21 @@ pub(crate) fn run<P: Parser>(
     }
 }
 
+/// Shows a scene in a window until it is closed.
+#[cfg(feature = "window")]
+pub(crate) fn show(
+    scene: lar_viewer::Scene,
+    view: lar_viewer::View,
+    title: &str,
+) -> Result<(), CommandError> {
+    Ok(lar_viewer::view(scene, view, title)?)
+}
+
+#[cfg(all(feature = "viewer", not(feature = "window")))]
+pub(crate) fn show(_: lar_viewer::Scene, _: lar_viewer::View, _: &str) -> Result<(), CommandError> {
+    Err(CommandError::NotBuilt { feature: "window" })
+}
+
 /// What clap says of a usage error, without usage and tips.
 fn first_paragraph(text: &str) -> String {
     let paragraph = text.split("\n\n").next().unwrap_or(text);

@@ -1,9 +1,14 @@
 //! Scenes with known arrangements, and families of scenes of any size.
 
+mod refectory;
+
+pub use refectory::{refectory, setting};
+
 use crate::random::Random;
+use lar_core::mapper::{MapError, Rod};
 use lar_core::{
-    AffineError, Model, ModelError, Node, Points, Struct, StructError, Surface, cuboid_grid, icosphere, r, s,
-    simplex, t, triangular_prism,
+    AffineError, GridError, Model, ModelError, Node, Points, ProductError, SimplexError, Struct, StructError,
+    Surface, cuboid_grid, icosphere, r, s, simplex, t, triangular_prism,
 };
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -22,6 +27,24 @@ pub enum SceneError {
         /// What is wrong with it.
         source: ModelError,
     },
+    /// A model is malformed.
+    #[error(transparent)]
+    Complex(#[from] ModelError),
+    /// A shape of the mapper has a parameter out of its range.
+    #[error(transparent)]
+    Shape(#[from] MapError),
+    /// A product cannot be built.
+    #[error(transparent)]
+    Product(#[from] ProductError),
+    /// Simplices cannot be built.
+    #[error(transparent)]
+    Simplices(#[from] SimplexError),
+    /// A complex on the line cannot be built.
+    #[error(transparent)]
+    Line(#[from] GridError),
+    /// A transformation is of another space.
+    #[error(transparent)]
+    Affine(#[from] AffineError),
 }
 
 /// The placed models of a scene as surfaces, each called by the last part of its path.
@@ -131,20 +154,60 @@ pub fn two_spheres(level: u32, offset: f64) -> Result<[Surface; 2], AffineError>
     Ok([Surface::from_triangles("A", &sphere), Surface::from_triangles("B", &moved)])
 }
 
-/// `n` cubes with edges of 0.5 to 1, turned at random, their centres in a box that grows with n so that each meets a
+/// `n` cubes A, B, … with edges of 0.5 to 1, turned at random, their centres in a box that grows with n so that each meets a
 /// few others. The same seed gives the same scene everywhere.
 #[must_use]
 pub fn random_cubes(n: usize, seed: u64) -> Struct {
     let mut random = Random::new(seed);
     let side = 0.8 * (n as f64).cbrt();
-    let nodes = (0..n).map(|_| {
+    let nodes = lar_arrangement::operand_names(n).into_iter().map(|name| {
         let place = [(); 3].map(|()| side * random.unit());
         let turn = [(); 3].map(|()| PI * random.unit());
         let size = 0.5 + 0.5 * random.unit();
         let one = Struct::new("cube").with(t(&place)).with(r(turn)).with(s(&[size; 3])).with(t(&[-0.5; 3]));
-        Node::from(one.with(cube()))
+        Node::from(one.with((name, cube())))
     });
     Struct::from_nodes("random cubes", nodes.collect::<Vec<_>>())
+}
+
+/// Two unit cubes A and B that cross: the middle of B lies in A, near a corner, and B is turned at random.
+#[must_use]
+pub fn crossing_cubes(seed: u64) -> Struct {
+    let mut random = Random::new(seed);
+    let turn = [(); 3].map(|()| PI * random.unit());
+    pair("crossing cubes", [t(&[0.8, 0.7, 0.85]).into(), r(turn).into(), t(&[-0.5; 3]).into()])
+}
+
+/// Two grids A and B of `side`³ unit cubes about one middle, the second turned by angles of 30°, 20° and 10° about x,
+/// y and z. Inner walls divide space but bound nothing: a cube of A is a cell of its own.
+#[must_use]
+pub fn cube_grids(side: usize) -> Struct {
+    let grid = cuboid_grid(&[side; 3]);
+    let middle = t(&[-0.5 * side as f64; 3]);
+    let turn = |axis: [f64; 3], degrees: f64| r(axis.map(|x| x * PI * degrees / 180.0));
+    let b = Struct::new("turned")
+        .with(turn([1.0, 0.0, 0.0], 30.0))
+        .with(turn([0.0, 1.0, 0.0], 20.0))
+        .with(turn([0.0, 0.0, 1.0], 10.0))
+        .with(middle.clone())
+        .with(("B", grid.clone()));
+    Struct::new("cube grids").with(Struct::new("upright").with(middle).with(("A", grid))).with(b)
+}
+
+/// Three cylinders A, B, C of radius 1 and height 4 with so many sides, along z, y and x, through each other about the
+/// origin.
+///
+/// # Errors
+/// When `sides` is below 3.
+pub fn three_rods(sides: usize) -> Result<Struct, SceneError> {
+    let rod = Rod { height: 4.0, shape: sides, ..Rod::default() }.model()?;
+    let lying = |name: &str, turn: [f64; 3]| {
+        Struct::new("rod").with(r(turn)).with(t(&[0.0, 0.0, -2.0])).with((name, rod.clone()))
+    };
+    Ok(Struct::new("three rods")
+        .with(lying("A", [0.0; 3]))
+        .with(lying("B", [FRAC_PI_2, 0.0, 0.0]))
+        .with(lying("C", [0.0, FRAC_PI_2, 0.0])))
 }
 
 #[cfg(test)]

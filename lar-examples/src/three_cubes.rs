@@ -76,21 +76,17 @@ fn pictures(
         return Ok(());
     }
     let size = [arguments.size.width, arguments.size.height];
-    let figures = crate::figures::figures(arrangement, surfaces, size)?;
+    let figures = crate::figures::panels(arrangement, surfaces, size)?;
     if let Some(dir) = &arguments.out {
-        let adapter = crate::figures::write_figures(&figures, size, dir)?;
+        let adapter = crate::figures::write_figures(&figures, dir)?;
         writeln!(out, "\ndrawn by {adapter}")?;
         for figure in &figures {
-            writeln!(
-                out,
-                "{}  {}",
-                dir.join(format!("figure6{}.png", figure.panel)).display(),
-                figure.title
-            )?;
+            writeln!(out, "{}  {}", dir.join(format!("{}.png", figure.name)).display(), figure.title)?;
         }
         out.flush()?;
     }
-    if arguments.view { window(figures) } else { Ok(()) }
+    let [.., cells] = figures;
+    if arguments.view { program::show(cells.scene, cells.view, "three cubes") } else { Ok(()) }
 }
 
 #[cfg(not(feature = "viewer"))]
@@ -102,14 +98,4 @@ fn pictures(
 ) -> Result<(), CommandError> {
     let wanted = arguments.out.is_some() || arguments.view;
     if wanted { Err(CommandError::NotBuilt { feature: "viewer" }) } else { Ok(()) }
-}
-
-#[cfg(feature = "window")]
-fn window([.., cells]: [crate::figures::Figure; 4]) -> Result<(), CommandError> {
-    Ok(lar_viewer::view(cells.scene, cells.view, "three cubes")?)
-}
-
-#[cfg(all(feature = "viewer", not(feature = "window")))]
-fn window(_: [crate::figures::Figure; 4]) -> Result<(), CommandError> {
-    Err(CommandError::NotBuilt { feature: "window" })
 }

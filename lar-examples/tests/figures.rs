@@ -4,7 +4,8 @@
 
 mod support;
 
-use lar_examples::{figures, scenes};
+use lar_examples::figures::{self, Request};
+use lar_examples::scenes;
 use lar_viewer::{Image, OffscreenRenderer, ViewerError};
 use std::path::{Path, PathBuf};
 use support::Place;
@@ -74,10 +75,88 @@ fn panels_of_the_three_cubes() {
     let Some(mut renderer) = renderer() else { return };
     let surfaces = scenes::surfaces(&scenes::three_cubes()).unwrap();
     let arrangement = lar_arrangement::arrange(&surfaces).unwrap();
-    for figure in figures::figures(&arrangement, &surfaces, SIZE).unwrap() {
+    for figure in figures::panels(&arrangement, &surfaces, SIZE).unwrap() {
         let image = renderer.render(&figure.scene, &figure.view, SIZE[0], SIZE[1]).unwrap();
-        check_picture(&format!("figure6{}", figure.panel), &image);
+        check_picture(&figure.name, &image);
     }
+}
+
+/// Every figure of the collection that has no test of its own, small: names, and sizes in which each panel can still be
+/// read.
+const SMALL: [(&str, [u32; 2]); 10] = [
+    ("figure1", [500, 400]),
+    ("figure2", [480, 240]),
+    ("figure3", [480, 240]),
+    ("refectory", [360, 210]),
+    ("cube_grids", [300, 240]),
+    ("numbered_grid", [360, 252]),
+    ("mapper", [300, 300]),
+    ("simplicial_grids", [360, 240]),
+    ("products", [360, 240]),
+    // The rods have as many edges as pixels when they are smaller.
+    ("rods", [450, 300]),
+];
+
+/// Largest file of a committed picture in bytes.
+const LARGEST: u64 = 60_000;
+
+#[test]
+fn the_collection() {
+    let tested_elsewhere = ["figure4", "figure5", "figure6", "floor_plan"];
+    let names = || figures::COLLECTION.iter().map(|entry| entry.name);
+    let small: Vec<&str> = SMALL.iter().map(|(name, _)| *name).collect();
+    let rest: Vec<&str> = names().filter(|name| !tested_elsewhere.contains(name)).collect();
+    assert_eq!(rest, small);
+    let Some(mut renderer) = renderer() else { return };
+    let mut numbers = String::new();
+    for entry in figures::COLLECTION {
+        let size = SMALL.iter().find(|(name, _)| *name == entry.name).map(|(_, size)| *size);
+        let request = Request { size, small: true, ..Request::default() };
+        let drawn = entry.draw(&request).unwrap();
+        numbers.push_str(&format!("{}: {}\n{}\n", entry.name, entry.title, drawn.numbers));
+        for figure in drawn.figures.iter().filter(|_| size.is_some()) {
+            let image = renderer.render(&figure.scene, &figure.view, figure.size[0], figure.size[1]).unwrap();
+            check_picture(&figure.name, &image);
+        }
+    }
+    insta::assert_snapshot!(numbers);
+    for file in std::fs::read_dir(committed("x").parent().unwrap()).unwrap() {
+        let file = file.unwrap();
+        assert!(file.metadata().unwrap().len() < LARGEST, "{}", file.path().display());
+    }
+}
+
+#[test]
+fn figures_writes_what_it_is_asked_for() {
+    if renderer().is_none() {
+        return;
+    }
+    let place = Place::new();
+    let figures = env!("CARGO_BIN_EXE_figures");
+    let args = [
+        "--only",
+        "figure5",
+        "--only",
+        "numbered_grid",
+        "--small",
+        "--out",
+        "new/pictures",
+        "--size",
+        "200x200",
+    ];
+    let run = place.program(figures, &args);
+    assert_eq!((run.code, run.err.as_str()), (0, ""), "{run:?}");
+    let names: Vec<String> =
+        place.files().iter().skip(2).map(|p| p.file_name().unwrap().to_string_lossy().into_owned()).collect();
+    let panels = ["a", "b", "c"].map(|p| ["png", "svg"].map(|e| format!("figure5{p}.{e}"))).concat();
+    assert_eq!(names, [panels, vec!["numbered_grid.png".to_owned()]].concat());
+    check_file("figure5b", &place.path("new/pictures/figure5b.png"));
+    let again = place.program(env!("CARGO_BIN_EXE_figure2"), &["--seed", "7"]);
+    assert_eq!((again.code, again.err.as_str()), (0, ""), "{again:?}");
+    let other = place.program(figures, &["--only", "figure2"]);
+    assert_ne!(again.out, other.out, "another seed is another arrangement");
+    let refused = place.program(figures, &["--only", "figure7"]);
+    assert_eq!((refused.code, refused.out.as_str(), refused.err.lines().count()), (2, "", 1), "{refused:?}");
 }
 
 /// A program's panels on 200 × 200 pixels: the PNGs are the committed pictures, and the SVGs have a path for each face.

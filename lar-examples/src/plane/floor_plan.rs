@@ -7,7 +7,7 @@
 
 use super::boolean::{Boolean, BooleanOptions};
 use super::color::cyclic;
-use super::figures::write_pictures;
+use super::figures::{Pictures, deliver};
 use super::input::{Regions, Shapes, Source};
 use super::picture::{Color, PaintedPath, Picture, Stroke, filled};
 use crate::size::Size;
@@ -38,6 +38,9 @@ struct Arguments {
     /// Write floor_plan.svg and floor_plan.png into this directory.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Open a window on the picture.
+    #[arg(long)]
+    view: bool,
     /// Length of a unit of the drawing in metres.
     #[arg(long, value_name = "M", default_value = "0.01")]
     unit: f64,
@@ -51,13 +54,19 @@ struct Arguments {
 /// written all the same.
 pub fn run(args: impl IntoIterator<Item = OsString>, out: &mut dyn Write, err: &mut dyn Write) -> u8 {
     program::run(args, out, err, |arguments: Arguments, out| {
-        let plan = FloorPlan::read(&arguments.plan)?;
-        plan.print(arguments.unit, out)?;
-        out.flush()?;
-        let Some(dir) = &arguments.out else { return Ok(()) };
+        let source = Source { name: String::new(), path: arguments.plan };
+        let plan = FloorPlan::new(&Shapes::read(vec![source], TOLERANCE)?)?;
+        write!(out, "{}", plan.numbers(arguments.unit))?;
         let size = [arguments.size.width, arguments.size.height];
-        write_pictures(&[("floor_plan".to_owned(), "floor plan", &plan.picture())], dir, size, out)
+        deliver(vec![plan.named_picture()], arguments.out.as_deref(), arguments.view, size, out)
     })
+}
+
+/// The plan of an apartment, in hundredths of a metre.
+pub(crate) fn apartment() -> Result<Pictures, CommandError> {
+    let drawing = lar_core::parse_svg(include_str!("apartment.svg"), "apartment.svg", TOLERANCE)?;
+    let plan = FloorPlan::new(&Shapes::of_svg("apartment.svg", &drawing))?;
+    Ok(Pictures { numbers: plan.numbers(0.01), pictures: vec![plan.named_picture()] })
 }
 
 /// A room: its name, its outline with what stands in it left out, and its area in squared units.
@@ -77,13 +86,11 @@ struct FloorPlan {
 }
 
 impl FloorPlan {
-    fn read(path: &std::path::Path) -> Result<Self, CommandError> {
-        let source = Source { name: String::new(), path: path.to_owned() };
-        let shapes = Shapes::read(vec![source], TOLERANCE)?;
+    fn new(shapes: &Shapes) -> Result<Self, CommandError> {
         let regions = shapes.regions(false)?;
-        let walls = boolean(&shapes, &regions, "walls")?;
+        let walls = boolean(shapes, &regions, "walls")?;
         let has_openings = regions.names.iter().any(|name| name == "openings");
-        let cut = |text: &str| Ok::<_, CommandError>(boolean(&shapes, &regions, text)?.polygons());
+        let cut = |text: &str| Ok::<_, CommandError>(boolean(shapes, &regions, text)?.polygons());
         let [without, openings] = if has_openings {
             [cut("walls - openings")?, cut("walls & openings")?]
         } else {
@@ -92,7 +99,7 @@ impl FloorPlan {
         let lines = shapes.of_element("fittings").flat_map(|shape| &shapes.segments[shape.segments.clone()]);
         let runs = lines.map(|&[a, b, c, d]| (vec![[a, b], [c, d]], false)).collect();
         Ok(Self {
-            rooms: rooms(&shapes, &walls),
+            rooms: rooms(shapes, &walls),
             whole: walls.polygons(),
             walls: without,
             openings,
@@ -100,7 +107,8 @@ impl FloorPlan {
         })
     }
 
-    fn print(&self, unit: f64, out: &mut dyn Write) -> Result<(), CommandError> {
+    /// The table of areas, for units of this length in metres.
+    fn numbers(&self, unit: f64) -> String {
         let square = unit * unit;
         let rows = self.rooms.iter().map(|room| (room.name.as_str(), room.area));
         let sum: f64 = self.rooms.iter().map(|room| room.area).sum();
@@ -111,10 +119,12 @@ impl FloorPlan {
             ("all", sum + self.whole.area()),
         ];
         let width = rows.clone().chain(sums).map(|(name, _)| name.chars().count()).max().unwrap_or(0);
-        let mut row = |(name, area): (&str, f64)| writeln!(out, "{name:<width$}  {:>9.3} m²", area * square);
-        rows.into_iter().try_for_each(&mut row)?;
-        sums.into_iter().try_for_each(&mut row)?;
-        Ok(())
+        let row = |(name, area): (&str, f64)| format!("{name:<width$}  {:>9.3} m²\n", area * square);
+        rows.chain(sums).map(row).collect()
+    }
+
+    fn named_picture(&self) -> (String, &'static str, Picture) {
+        ("floor_plan".to_owned(), "floor plan", self.picture())
     }
 
     /// Rooms in their colours, walls dark, openings light, fittings as lines.

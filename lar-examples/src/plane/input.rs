@@ -69,6 +69,15 @@ impl Shapes {
         Ok(out)
     }
 
+    /// One drawing that was read from an SVG document of this name.
+    pub(crate) fn of_svg(path: &str, drawing: &lar_core::Drawing) -> Self {
+        let mut out = Self::default();
+        out.push_svg(drawing);
+        let (shapes, segments) = (0..out.shapes.len(), 0..out.segments.len());
+        out.inputs.push(Input { name: String::new(), path: path.into(), shapes, segments });
+        out
+    }
+
     fn push_segments(&mut self, segments: Vec<[f64; 4]>) {
         let first = self.segments.len();
         if first == 0 {

@@ -15,12 +15,21 @@ impl Picture {
     /// # Errors
     /// When a filled path cannot be triangulated, a coordinate is too large to be drawn, or the renderer fails.
     pub fn render(&self, renderer: &mut OffscreenRenderer, size: [u32; 2]) -> Result<Image, CommandError> {
+        let (scene, view) = self.scene(size)?;
+        Ok(renderer.render(&scene, &view, size[0], size[1])?)
+    }
+
+    /// The picture as a scene, and the view that fills `size` pixels with it.
+    ///
+    /// # Errors
+    /// When a filled path cannot be triangulated or a coordinate is too large to be drawn.
+    pub fn scene(&self, size: [u32; 2]) -> Result<(Scene, View), CommandError> {
         let frame = self.frame(size);
         let mut scene = Scene::new();
         self.fills(&frame)?.into_iter().try_for_each(|drawable| scene.push(drawable))?;
         self.strokes(&frame).into_iter().try_for_each(|drawable| scene.push(drawable))?;
         let view = View { camera: camera(&frame, size[1]), background: WHITE, ..View::default() };
-        Ok(renderer.render(&scene, &view, size[0], size[1])?)
+        Ok((scene, view))
     }
 
     /// How much higher each path lies than the one before it: by more than the renderer raises lines above faces, so

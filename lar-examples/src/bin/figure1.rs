@@ -1,0 +1,7 @@
+//! Figure 1 of the 2019 paper; see [`lar_examples::figures`].
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    lar_examples::main(|args, out, err| lar_examples::figures::run_figure1(args, out, err))
+}
