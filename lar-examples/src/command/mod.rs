@@ -14,8 +14,8 @@
 //! ```
 //!
 //! Exit codes: 0 done, 2 bad input or usage, 3 no graphics adapter or display, 130 interrupted. An error is one line on
-//! the error stream, which also shows a bar when it is a terminal and the work takes a while; files are written whole or not at all,
-//! and nothing is computed for an output that cannot be written.
+//! the error stream, which also shows a bar when it is a terminal and the work takes a while; files are written whole
+//! or not at all, and nothing is computed for an output that cannot be written.
 
 mod arrange;
 mod boolean;
