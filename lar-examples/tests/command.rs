@@ -35,6 +35,25 @@ fn threads_change_nothing() {
     assert_eq!(complex.validate_with_exterior(), []);
 }
 
+/// The stages of the table are those of the report, in the same order.
+#[test]
+fn what_it_cost() {
+    let place = Place::with_cubes();
+    let printed = done(&place, &words("arrange a.obj b.obj c.obj --stats --json report.json")).out;
+    let table = printed.split_once(" s to arrange\n").expect("the table comes last").1;
+    let names: Vec<&str> = table.lines().map(|line| line.split("  ").next().unwrap_or_default()).collect();
+    let report: Value = serde_json::from_str(&place.read("report.json")).unwrap();
+    let stages = report["seconds"]["stages"].as_object().expect("times by stage");
+    let (of_stages, rest) = names.split_at(stages.len());
+    assert!(of_stages.iter().all(|name| stages.contains_key(*name)), "{table}");
+    assert_eq!(rest[..2], ["all stages", "facets"], "{table}");
+    let tested = report["counters"]["pairs_tested"].to_string();
+    assert!(
+        table.lines().any(|l| l.starts_with("pairs of facets tested ") && l.ends_with(&tested)),
+        "{table}"
+    );
+}
+
 fn mesh(place: &Place, name: &str) -> TriangleMesh {
     let surface = read_obj(place.path(name), ObjGrouping::Whole).unwrap().remove(0);
     let triangle = |f| <[u32; 3]>::try_from(surface.face(f).next().unwrap()).expect("triangles");

@@ -2,6 +2,7 @@
 
 use super::input::{Inputs, Operands};
 use super::report::{Coplanarity, Moves, Operand, Stages, Threads, arrange, counted, print_laws};
+use super::stats::{Counters, Table, peak_memory};
 use crate::checks::{boundary_squared_zero, parents_ok};
 use crate::output::{Sink, check_directory, check_distinct, check_file, write_directory};
 use crate::{CommandError, tables};
@@ -29,6 +30,9 @@ pub(crate) struct Arrange {
     /// Write each bounded cell as a triangulated OBJ file into a new directory.
     #[arg(long, value_name = "DIR")]
     obj: Option<PathBuf>,
+    /// Print what it cost: seconds of each stage, pairs of faces, exact fallbacks, memory.
+    #[arg(long)]
+    stats: bool,
     #[command(flatten)]
     coplanarity: Coplanarity,
     #[command(flatten)]
@@ -62,7 +66,9 @@ struct Report {
     inputs: Vec<Operand>,
     grid_step: f64,
     moved: Moves,
-    exact_fallbacks: u64,
+    counters: Counters,
+    /// Bytes, where the system tells.
+    peak_memory: Option<u64>,
     threads: usize,
     seconds: Seconds,
 }
@@ -96,6 +102,11 @@ impl Arrange {
         }
         if !matches!(sink, Some(Sink::Standard)) {
             print(&arrangement, &report, out)?;
+            if self.stats {
+                let stages = &arrangement.stats().stages;
+                let (counters, peak_memory) = (&report.counters, report.peak_memory);
+                write!(out, "{}", Table { stages, counters, peak_memory })?;
+            }
         }
         Ok(())
     }
@@ -127,7 +138,8 @@ impl Arrange {
             inputs: Operand::all(a, operands),
             grid_step: a.stats().grid_step,
             moved: Moves::of(a.stats()),
-            exact_fallbacks: a.stats().exact_fallbacks,
+            counters: Counters::of(a.stats()),
+            peak_memory: peak_memory(),
             threads: self.threads.count().get(),
             seconds: Seconds {
                 read: operands.read.as_secs_f64(),

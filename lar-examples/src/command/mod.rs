@@ -2,7 +2,8 @@
 //! files.
 //!
 //! ```text
-//! lar arrange INPUT... [--json PATH|-] [--complex PATH] [--obj DIR] [--as-given | --tolerance LENGTH] [--threads N]
+//! lar arrange INPUT... [--json PATH|-] [--complex PATH] [--obj DIR] [--stats] [--as-given | --tolerance LENGTH]
+//!           [--threads N]
 //! lar boolean EXPR INPUT... -o OUT [--json PATH|-] [--fill RULE] [--keep-fragments] [--as-given | --tolerance LENGTH]
 //!           [--threads N]
 //! lar render INPUT... -o OUT.png [--explode S | SX,SY,SZ] [--alpha A] [--size WxH] [--cells all|solid]
@@ -24,6 +25,7 @@ mod input;
 mod picture;
 mod plane;
 mod report;
+mod stats;
 
 use crate::{CommandError, program};
 use clap::{Parser, Subcommand};

@@ -111,6 +111,9 @@ pub(crate) fn redacted(json: &str) -> String {
     let mut value: Value = serde_json::from_str(json).expect("valid JSON");
     value["threads"] = "[threads]".into();
     redact(&mut value["seconds"]);
+    if value.get("peak_memory").is_some_and(|bytes| bytes.is_null() || bytes.is_u64()) {
+        value["peak_memory"] = "[bytes]".into();
+    }
     round(&mut value);
     serde_json::to_string_pretty(&value).expect("a value")
 }
