@@ -13,6 +13,8 @@
 
 use crate::kernel::{Along, Direction, Geometry, Sign, Support, Vertex, VertexDef};
 use crate::soup::Soup;
+use rustc_hash::FxHashMap;
+use std::cell::OnceCell;
 use std::cmp::Ordering;
 
 /// A vertex in the lists below: an input point, or (from `n_points` on) an entry of `Contacts::vertices`.
@@ -72,8 +74,6 @@ impl Contacts {
     }
 }
 
-const NO_EDGE: u32 = u32::MAX;
-
 /// The state of a gap between two stops of a trace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Gap {
@@ -82,22 +82,67 @@ enum Gap {
     Along(u32),
 }
 
-/// A point of a facet's boundary on ℓ: a corner (`edge` is `NO_EDGE`) or a point inside an edge.
-#[derive(Clone, Copy, Debug)]
+/// What a stop is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Site {
+    /// A corner.
+    Corner(u32),
+    /// Where an edge passes through the plane of the other facet.
+    Inside { edge: u32, facet: u32 },
+}
+
+/// A point of a facet's boundary on ℓ.
+#[derive(Clone, Debug)]
 struct Stop {
-    vertex: Vertex,
-    edge: u32,
+    site: Site,
+    /// Its coordinate along ℓ's axis, within `error`.
+    at: f64,
+    error: f64,
+    /// Found only when the coordinate leaves a doubt, or when the stop is part of the result.
+    vertex: OnceCell<Vertex>,
     /// Whether the boundary passes here from above to not above ℓ (in its facet), and from below to not below.
     toggles: [bool; 2],
     gap: Gap,
 }
 
-/// Buffers for the pairs of one chunk.
+impl Stop {
+    fn corner(geometry: &Geometry, p: u32, axis: usize, toggles: [bool; 2]) -> Self {
+        let vertex = geometry.point_vertex(p);
+        let (at, error) = (vertex.at[axis], geometry.rounding_of(p));
+        Self { site: Site::Corner(p), at, error, vertex: vertex.into(), toggles, gap: Gap::Outside }
+    }
+
+    fn inside(soup: &Soup, edge: u32, facet: u32, axis: usize) -> Self {
+        let (at, error) = soup.geometry.crossing_near(soup.edges[edge as usize], facet, axis);
+        let site = Site::Inside { edge, facet };
+        Self { site, at, error, vertex: OnceCell::new(), toggles: [true, true], gap: Gap::Outside }
+    }
+
+    fn vertex(&self, soup: &Soup) -> &Vertex {
+        self.vertex.get_or_init(|| match self.site {
+            Site::Corner(p) => soup.geometry.point_vertex(p),
+            Site::Inside { edge, facet } => {
+                soup.geometry.edge_vertex(soup.edges[edge as usize], Support::Facet(facet))
+            }
+        })
+    }
+
+    /// Order along `axis`, exactly.
+    fn cmp(&self, other: &Self, soup: &Soup, axis: usize) -> Ordering {
+        if (self.at - other.at).abs() > self.error + other.error {
+            return self.at.total_cmp(&other.at);
+        }
+        soup.geometry.cmp_coordinate(self.vertex(soup), other.vertex(soup), axis)
+    }
+}
+
+/// Buffers for the pairs of one chunk, and the vertices found in it: those of an edge come with both its facets.
 #[derive(Default)]
 pub(crate) struct Scratch {
     signs: [Vec<Sign>; 2],
     traces: [Vec<Stop>; 2],
     on_line: Vec<(u32, [u32; 2])>,
+    known: FxHashMap<Site, VertexRef>,
 }
 
 /// Finds what facets f and g have in common.
@@ -120,7 +165,7 @@ pub(crate) fn meet(soup: &Soup, f: u32, g: u32, scratch: &mut Scratch, out: &mut
     for (i, (this, other)) in [(f, g), (g, f)].into_iter().enumerate() {
         trace(soup, this, other, axis, &scratch.signs[i], &mut scratch.on_line, &mut scratch.traces[i]);
     }
-    overlay(geometry, [f, g], axis, &scratch.traces, out);
+    overlay(soup, [f, g], axis, &scratch.traces, &mut scratch.known, out);
 }
 
 /// For two triangles: whether one of them shows at once that they have nothing in common but shared corners and a
@@ -204,21 +249,16 @@ fn trace(
         match (signs[i], next) {
             (Sign::Zero, Sign::Zero) => {
                 on_line.push((edge / 2, [p, q]));
-                push_corner(geometry, stops, p, [false, false]);
-                push_corner(geometry, stops, q, [false, false]);
+                push_corner(geometry, stops, p, axis, [false, false]);
+                push_corner(geometry, stops, q, axis, [false, false]);
             }
-            (Sign::Zero, s) => push_corner(geometry, stops, p, toggles(s)),
-            (s, Sign::Zero) => push_corner(geometry, stops, q, toggles(s)),
-            (s, t) if s != t => stops.push(Stop {
-                vertex: geometry.edge_vertex(soup.edges[(edge / 2) as usize], Support::Facet(g)),
-                edge: edge / 2,
-                toggles: [true, true],
-                gap: Gap::Outside,
-            }),
+            (Sign::Zero, s) => push_corner(geometry, stops, p, axis, toggles(s)),
+            (s, Sign::Zero) => push_corner(geometry, stops, q, axis, toggles(s)),
+            (s, t) if s != t => stops.push(Stop::inside(soup, edge / 2, g, axis)),
             _ => {}
         }
     }
-    stops.sort_by(|a, b| geometry.cmp_coordinate(&a.vertex, &b.vertex, axis));
+    stops.sort_by(|a, b| a.cmp(b, soup, axis));
     let mut above_below = [false; 2];
     for i in 0..stops.len() {
         for (state, toggle) in above_below.iter_mut().zip(stops[i].toggles) {
@@ -226,7 +266,7 @@ fn trace(
         }
         stops[i].gap = match above_below {
             [true, true] => Gap::Inside,
-            _ => edge_over_gap(geometry, stops, i, on_line, axis).map_or(Gap::Outside, Gap::Along),
+            _ => edge_over_gap(soup, stops, i, on_line, axis).map_or(Gap::Outside, Gap::Along),
         };
     }
 }
@@ -236,25 +276,26 @@ fn toggles(sign: Sign) -> [bool; 2] {
     [sign == Sign::Positive, sign == Sign::Negative]
 }
 
-fn push_corner(geometry: &Geometry, stops: &mut Vec<Stop>, p: u32, toggles: [bool; 2]) {
-    let def = VertexDef::Point(p);
-    match stops.iter_mut().find(|s| s.vertex.def == def) {
+fn push_corner(geometry: &Geometry, stops: &mut Vec<Stop>, p: u32, axis: usize, toggles: [bool; 2]) {
+    match stops.iter_mut().find(|s| s.site == Site::Corner(p)) {
         Some(stop) => (0..2).for_each(|k| stop.toggles[k] ^= toggles[k]),
-        None => {
-            stops.push(Stop { vertex: geometry.point_vertex(p), edge: NO_EDGE, toggles, gap: Gap::Outside });
-        }
+        None => stops.push(Stop::corner(geometry, p, axis, toggles)),
     }
 }
 
 /// The edge on ℓ that covers the gap after stop i.
 fn edge_over_gap(
-    geometry: &Geometry,
+    soup: &Soup,
     stops: &[Stop],
     i: usize,
     on_line: &[(u32, [u32; 2])],
     axis: usize,
 ) -> Option<u32> {
-    let (before, after) = (&stops[i].vertex, &stops.get(i + 1)?.vertex);
+    if on_line.is_empty() {
+        return None;
+    }
+    let geometry = &soup.geometry;
+    let (before, after) = (stops[i].vertex(soup), stops.get(i + 1)?.vertex(soup));
     on_line.iter().find_map(|&(edge, ends)| {
         let [p, q] = ends.map(|p| geometry.point_vertex(p));
         let (lo, hi) = if geometry.cmp_coordinate(&p, &q, axis).is_lt() { (p, q) } else { (q, p) };
@@ -275,7 +316,10 @@ enum Place {
 
 impl Place {
     fn at_stop(stop: &Stop) -> Self {
-        if stop.edge == NO_EDGE { Place::Corner } else { Place::OnEdge(stop.edge) }
+        match stop.site {
+            Site::Corner(_) => Place::Corner,
+            Site::Inside { edge, .. } => Place::OnEdge(edge),
+        }
     }
 
     fn in_gap(gap: Gap) -> Self {
@@ -288,8 +332,14 @@ impl Place {
 }
 
 /// Lays two traces over each other and records the common points and segments.
-fn overlay(geometry: &Geometry, facets: [u32; 2], axis: usize, traces: &[Vec<Stop>; 2], out: &mut Contacts) {
-    let n_points = geometry.n_points() as u32;
+fn overlay(
+    soup: &Soup,
+    facets: [u32; 2],
+    axis: usize,
+    traces: &[Vec<Stop>; 2],
+    known: &mut FxHashMap<Site, VertexRef>,
+    out: &mut Contacts,
+) {
     let [mut i, mut j] = [0, 0];
     let mut gaps = [Gap::Outside; 2];
     let mut previous: Option<VertexRef> = None;
@@ -297,7 +347,7 @@ fn overlay(geometry: &Geometry, facets: [u32; 2], axis: usize, traces: &[Vec<Sto
     while i < traces[0].len() || j < traces[1].len() {
         let (a, b) = (traces[0].get(i), traces[1].get(j));
         let order = match (a, b) {
-            (Some(a), Some(b)) => geometry.cmp_coordinate(&a.vertex, &b.vertex, axis),
+            (Some(a), Some(b)) => a.cmp(b, soup, axis),
             (Some(_), None) => Ordering::Less,
             _ => Ordering::Greater,
         };
@@ -314,7 +364,9 @@ fn overlay(geometry: &Geometry, facets: [u32; 2], axis: usize, traces: &[Vec<Sto
         j += usize::from(stops[1].is_some());
         let here = places.iter().all(|&p| p != Place::Outside).then(|| {
             any |= places != [Place::Corner; 2];
-            record_point(stops, places, [before, gaps], facets, n_points, out)
+            let v = vertex_at(soup, stops, known, out);
+            record_contact(v, places, [before, gaps], facets, out);
+            v
         });
         if let (Some(from), Some(to)) = (previous, here)
             && before.iter().all(|&gap| gap != Gap::Outside)
@@ -326,23 +378,35 @@ fn overlay(geometry: &Geometry, facets: [u32; 2], axis: usize, traces: &[Vec<Sto
     out.crossing_pairs += u64::from(any);
 }
 
-fn record_point(
+/// The vertex of one or two stops in the same place; a corner, if one of them is.
+fn vertex_at(
+    soup: &Soup,
     stops: [Option<&Stop>; 2],
+    known: &mut FxHashMap<Site, VertexRef>,
+    out: &mut Contacts,
+) -> VertexRef {
+    let corner = stops.iter().flatten().find(|s| matches!(s.site, Site::Corner(_)));
+    let stop = corner
+        .or_else(|| stops.iter().flatten().next())
+        .expect("every point of the overlay is a stop of one trace");
+    match stop.site {
+        Site::Corner(p) => p,
+        Site::Inside { edge, facet } => {
+            let site = Site::Inside { edge, facet: soup.geometry.first_in_plane(facet) };
+            let n_points = soup.geometry.n_points() as u32;
+            *known.entry(site).or_insert_with(|| out.vertex_ref(stop.vertex(soup), n_points))
+        }
+    }
+}
+
+/// Records a point that both facets have.
+fn record_contact(
+    v: VertexRef,
     places: [Place; 2],
     gaps: [[Gap; 2]; 2],
     facets: [u32; 2],
-    n_points: u32,
     out: &mut Contacts,
-) -> VertexRef {
-    let is_point = |s: &&Stop| matches!(s.vertex.def, VertexDef::Point(_));
-    let stop = stops
-        .iter()
-        .flatten()
-        .copied()
-        .find(is_point)
-        .or_else(|| stops.into_iter().flatten().next())
-        .expect("every point of the overlay is a stop of one trace");
-    let v = out.vertex_ref(&stop.vertex, n_points);
+) {
     for k in 0..2 {
         match places[k] {
             Place::OnEdge(edge) => out.splits.push((edge, v)),
@@ -353,7 +417,6 @@ fn record_point(
             _ => {}
         }
     }
-    v
 }
 
 fn record_segment(gaps: [Gap; 2], facets: [u32; 2], ends: [VertexRef; 2], out: &mut Contacts) {

@@ -43,21 +43,39 @@ impl Double {
             acc = acc.plus((limb >> 32) as f64 * 4_294_967_296.0).plus((limb & 0xffff_ffff) as f64);
         }
         if x.sign() == super::Sign::Negative {
-            acc = Self { hi: -acc.hi, lo: -acc.lo };
+            acc = acc.negated();
         }
         (acc, skip)
     }
 
-    /// Exact below 2^117.
+    /// Exact below 2^106, beyond with a relative error below 2^-104.
     fn from_i128(x: i128) -> Self {
         let m = x.unsigned_abs();
-        let acc = Self { hi: (m >> 64) as u64 as f64 * 18_446_744_073_709_551_616.0, lo: 0.0 };
-        let acc = acc.plus((m as u64 >> 32) as f64 * 4_294_967_296.0).plus((m as u64 & 0xffff_ffff) as f64);
-        if x < 0 { Self { hi: -acc.hi, lo: -acc.lo } } else { acc }
+        let part = |shift: u32| f64::from((m >> shift) as u32) * 2f64.powi(shift as i32);
+        let acc = Self { hi: part(96), lo: 0.0 }.plus(part(64)).plus(part(32)).plus(part(0));
+        if x < 0 { acc.negated() } else { acc }
     }
 
-    fn scaled(self, power_of_two: f64) -> Self {
+    pub(super) fn negated(self) -> Self {
+        Self { hi: -self.hi, lo: -self.lo }
+    }
+
+    pub(super) fn scaled(self, power_of_two: f64) -> Self {
         Self { hi: self.hi * power_of_two, lo: self.lo * power_of_two }
+    }
+
+    /// The sum, off by less than 2^-103 of the terms' magnitudes.
+    pub(super) fn sum(self, other: Self) -> Self {
+        let (sum, error) = two_sum(self.hi, other.hi);
+        let (hi, lo) = quick_two_sum(sum, error + (self.lo + other.lo));
+        Self { hi, lo }
+    }
+
+    /// The product, off by less than 2^-102 of it.
+    pub(super) fn product(self, other: Self) -> Self {
+        let (product, error) = two_product(self.hi, other.hi);
+        let (hi, lo) = quick_two_sum(product, error + (self.hi * other.lo + self.lo * other.hi));
+        Self { hi, lo }
     }
 
     fn plus(self, x: f64) -> Self {
@@ -92,7 +110,7 @@ impl Double {
 pub(crate) struct Fraction(Double);
 
 impl Fraction {
-    /// 0 ≤ numerator ≤ denominator < 2^105, denominator > 0. Relative error below 2^-98.
+    /// 0 ≤ numerator ≤ denominator, denominator > 0. Relative error below 2^-97.
     pub(crate) fn new(numerator: i128, denominator: i128) -> Self {
         Self(Double::from_i128(numerator).over(Double::from_i128(denominator)))
     }
@@ -102,7 +120,7 @@ impl Fraction {
     ///
     /// The product with the high part is exact, and so is its sum with the start, as sums of two numbers; the low
     /// parts are below 2^-52 of |start| + |direction|, and so their roundings below 2^-103. With the quotient's error
-    /// the whole is off by less than 2^-97 of that; the bound is 2^-93.
+    /// the whole is off by less than 2^-96 of that; the bound is 2^-93.
     pub(crate) fn between(&self, start: i64, direction: i64) -> Option<f64> {
         let (start, direction) = (start as f64, direction as f64);
         let (product, low) = two_product(direction, self.0.hi);

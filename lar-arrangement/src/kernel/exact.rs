@@ -24,7 +24,7 @@ macro_rules! in_the_width_needed {
 }
 
 in_the_width_needed! {
-    rounded => rounded_in[5, 12, 23](def: &VertexDef) -> [f64; 3];
+    exactly_rounded => rounded_in[5, 12, 23](def: &VertexDef) -> [f64; 3];
     moved_and_rounded => moved_and_rounded_in[6, 13, 24](def: &VertexDef, offset: [i128; 3]) -> [f64; 3];
     exact_side => side_in[6, 19, 30](def: &VertexDef, support: Support) -> Sign;
     exact_order => order_in[9, 23, 44](a: &VertexDef, b: &VertexDef, axis: usize) -> Ordering;

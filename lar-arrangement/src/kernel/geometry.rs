@@ -4,6 +4,8 @@
 //! are rational points on planes with small coefficients, and a facet between such corners that is on none of these
 //! planes has one with large coefficients. Exact arithmetic takes its width from the worst that the scene holds.
 
+use super::approx::{ApproxPlane, approx_point};
+use super::double::Double;
 use super::point::{HPointOf, Plane, PlaneOf};
 use super::{Int, Sign};
 use lar_core::Cells;
@@ -102,6 +104,10 @@ pub(crate) struct Geometry {
     canonical: CanonicalPoints,
     /// Positions of the rational points, correctly rounded.
     positions: Vec<[f64; 3]>,
+    /// The same in about 106 bits.
+    close_positions: Vec<[Double; 3]>,
+    /// The shared planes in about 106 bits.
+    close_planes: Vec<ApproxPlane>,
     bases: Vec<[u32; 3]>,
     /// For each facet 0, or 1 + 2 · shared plane, + 1 when it looks the other way; empty in a scene without any.
     plane_codes: Vec<u32>,
@@ -125,6 +131,8 @@ impl Geometry {
         Self {
             points,
             positions: canonical.rational.iter().map(HPointOf::rounded).collect(),
+            close_positions: canonical.rational.iter().map(approx_point).collect(),
+            close_planes: canonical.planes.iter().map(ApproxPlane::new).collect(),
             reach: if canonical.rational.is_empty() { Reach::Grid } else { Reach::Canonical },
             first_on_plane: vec![u32::MAX; canonical.planes.len()],
             canonical,
@@ -193,6 +201,7 @@ impl Geometry {
         let plane = self.plane_through(base);
         self.first_on_plane.push(u32::MAX);
         self.canonical.planes.push(plane);
+        self.close_planes.push(ApproxPlane::new(&plane));
         let code = 2 * self.canonical.planes.len() as u32 - 1;
         self.push_facet_with(base, rounded_normal(&plane), code);
     }
@@ -236,6 +245,15 @@ impl Geometry {
         &self.canonical.planes[plane as usize]
     }
 
+    pub(super) fn close_plane(&self, plane: u32) -> &ApproxPlane {
+        &self.close_planes[plane as usize]
+    }
+
+    /// Coordinates of a rational point in about 106 bits.
+    pub(super) fn close_position(&self, p: u32) -> Option<&[Double; 3]> {
+        self.rational_entry(p).map(|entry| &self.close_positions[entry])
+    }
+
     /// Whether a point lies on a shared plane by definition.
     pub(crate) fn is_defined_on(&self, p: u32, plane: u32) -> bool {
         (p as usize) < self.canonical.planes_of_point.len()
@@ -274,6 +292,11 @@ impl Geometry {
         (axis, n[axis] > 0.0)
     }
 
+    /// How far the position of a point may be off.
+    pub(crate) fn rounding_of(&self, p: u32) -> f64 {
+        if self.rational_entry(p).is_some() { ROUNDING } else { 0.0 }
+    }
+
     pub(crate) fn point_vertex(&self, p: u32) -> Vertex {
         Vertex { at: self.position(p), def: VertexDef::Point(p) }
     }
@@ -302,7 +325,7 @@ impl Geometry {
     }
 
     /// The first facet on the shared plane of a facet; itself, when it shares none.
-    fn first_in_plane(&self, facet: u32) -> u32 {
+    pub(crate) fn first_in_plane(&self, facet: u32) -> u32 {
         self.shared_plane(facet).map_or(facet, |(plane, _)| self.first_on_plane[plane as usize])
     }
 }

@@ -24,6 +24,7 @@
 //! | the same with the midpoint of two of them | 1076 | 2924 | 5608 |
 //! | two of them, order of hits of a ray from their midpoint | 708 | 1629 | 3723 |
 
+mod approx;
 #[cfg(test)]
 mod budget;
 mod double;

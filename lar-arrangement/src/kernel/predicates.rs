@@ -130,6 +130,23 @@ impl Geometry {
         self.exact_order(&a.def, &b.def, axis)
     }
 
+    /// A coordinate of the point where an edge passes through the plane of a facet, and a bound on its error.
+    pub(crate) fn crossing_near(&self, ends: [u32; 2], facet: u32, axis: usize) -> (f64, f64) {
+        let plane = self.float(facet);
+        let [p, q] = ends.map(|p| self.position(p));
+        let ((sp, mp), (sq, mq)) = (plane.sum(p), plane.sum(q));
+        let (whole, step) = (sp - sq, q[axis] - p[axis]);
+        let of_sides = (mp + mq) * 2f64.powi(-50) + 2.0 * plane.slack;
+        if 4.0 * of_sides >= whole.abs() {
+            return (p[axis], f64::INFINITY);
+        }
+        // The part of the way is at most 1: it is off by little more than twice the sides' error over the whole.
+        let of_part = 3.0 * of_sides / whole.abs() + 2f64.powi(-50);
+        let of_ends = 4.0 * ends.map(|p| self.rounding_of(p)).iter().sum::<f64>();
+        let error = step.abs() * of_part + p[axis].abs() * 2f64.powi(-51) + of_ends;
+        (p[axis] + step * (sp / whole), error)
+    }
+
     /// Whether two vertices are the same point.
     pub(crate) fn coincide(&self, a: &Vertex, b: &Vertex) -> bool {
         a.at == b.at

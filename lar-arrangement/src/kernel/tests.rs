@@ -2,7 +2,7 @@
 
 use super::point::{HPointOf, PlaneOf};
 use super::*;
-use dashu_int::IBig;
+use dashu_int::{IBig, ops::Abs};
 use std::cmp::Ordering;
 
 pub(super) const LIMIT: i64 = 1 << 40;
@@ -350,11 +350,22 @@ fn definitions_give_the_exact_points_and_round_correctly() {
             for (k, x) in x.iter().enumerate() {
                 assert_eq!(x * &exact.w, &exact.x[k] * &w, "seed {seed}: {:?}, axis {k}", vertex.def);
                 check_rounding(&exact.x[k], &exact.w, vertex.at[k], seed);
+                check_crossing(&scene.geometry, vertex, exact, k, seed);
             }
         }
         scene.vertices.len()
     });
     assert!(compared > 500_000, "only {compared} vertices");
+}
+
+/// The quick coordinate of a crossing is as near to the exact one as it says.
+fn check_crossing(geometry: &Geometry, vertex: &Vertex, exact: &Exact, axis: usize, seed: u64) {
+    let VertexDef::EdgePlane { ends, support: Support::Facet(facet) } = vertex.def else { return };
+    let (at, error) = geometry.crossing_near(ends, facet, axis);
+    if error.is_finite() {
+        let gap = (scaled_float(at) * &exact.w - (&exact.x[axis] << 400)).abs();
+        assert!(gap <= scaled_float(error) * &exact.w, "seed {seed}: {at} ± {error}, {:?}", vertex.def);
+    }
 }
 
 #[test]
