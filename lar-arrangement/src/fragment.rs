@@ -121,7 +121,7 @@ impl Fragmenter<'_> {
             i => inner[n - i],
         };
         for i in 0..=n {
-            visit(Piece { ends: [at(i), at(i + 1)], direction, soft: self.soup.soft[id as usize] });
+            visit(Piece { ends: [at(i), at(i + 1)], direction, soft: self.soup.is_soft(id) });
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Vertices by definition: different definitions of one point become one vertex, by exact equality.
 
 use crate::kernel::{Geometry, Vertex};
+use crate::grid_points::PointTable;
 use rustc_hash::FxHashMap;
 
 /// All vertices found so far.
@@ -8,7 +9,7 @@ use rustc_hash::FxHashMap;
 pub(crate) struct Interner {
     pub vertices: Vec<Vertex>,
     /// Points of the input by their coordinates.
-    grid_points: FxHashMap<[i64; 3], u32>,
+    grid_points: PointTable,
     /// First vertex with a position; the position is correctly rounded, so equal points have equal positions.
     first_at: FxHashMap<[u64; 3], u32>,
     /// Next vertex with the same position, or the vertex itself.
@@ -18,7 +19,7 @@ pub(crate) struct Interner {
 impl Interner {
     /// The points of the input, in their order. Grid points are looked up by their integer coordinates and need no
     /// other keys.
-    pub(crate) fn new(geometry: &Geometry, grid_points: FxHashMap<[i64; 3], u32>) -> Self {
+    pub(crate) fn new(geometry: &Geometry, grid_points: PointTable) -> Self {
         let mut interner = Self { grid_points, ..Self::default() };
         for p in 0..geometry.n_points() as u32 {
             let vertex = geometry.point_vertex(p);
@@ -50,7 +51,8 @@ impl Interner {
 
     /// The number of the vertex, known or new.
     pub(crate) fn intern(&mut self, vertex: Vertex, geometry: &Geometry) -> u32 {
-        if let Some(&p) = self.grid_points.get(&vertex.at.map(|x| x as i64))
+        let at = vertex.at.map(|x| x as i64);
+        if let Some(p) = self.grid_points.find(at, |p| geometry.nearest_grid_point(p))
             && geometry.coincide(&self.vertices[p as usize], &vertex)
         {
             return p;

@@ -12,6 +12,8 @@ mod error;
 mod expression;
 mod fragment;
 mod grid;
+mod grid_points;
+mod half_edges;
 mod interner;
 mod kernel;
 mod measure;

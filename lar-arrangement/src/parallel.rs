@@ -24,6 +24,18 @@ pub(crate) fn with_threads<R>(_: Option<NonZeroUsize>, f: impl FnOnce() -> R) ->
     Ok(f())
 }
 
+/// Number of threads at work. What depends on it must not show in any result.
+#[cfg(feature = "rayon")]
+pub(crate) fn n_threads() -> usize {
+    rayon::current_num_threads()
+}
+
+/// There is one.
+#[cfg(not(feature = "rayon"))]
+pub(crate) fn n_threads() -> usize {
+    1
+}
+
 /// Applies `f` to 0..n and collects the results in order.
 #[cfg(feature = "rayon")]
 pub(crate) fn map<R: Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send) -> Vec<R> {

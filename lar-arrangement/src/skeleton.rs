@@ -56,7 +56,12 @@ impl Skeleton {
             ..Self::default()
         };
         let whole = vec![NOT_SEEN; soup.edges.len()];
-        let mut builder = Builder { out, soup, cuts, compact, whole, ids: FxHashMap::default() };
+        let n_points = soup.geometry.n_points() as u32;
+        let pieces = fragments.iter().flat_map(|part| &part.pieces).map(|piece| piece.ends);
+        let between_points = pieces.filter(|ends| ends.iter().all(|&v| v < n_points));
+        let input_edges = soup.edges_between(between_points.map(|[a, b]| [a.min(b), a.max(b)]));
+        let ids = FxHashMap::default();
+        let mut builder = Builder { out, soup, cuts, compact, whole, input_edges, ids };
         fragments.iter().for_each(|part| builder.push(part));
         builder.out
     }
@@ -98,6 +103,8 @@ struct Builder<'a> {
     compact: Vec<u32>,
     /// Edge that each input edge without inner points became.
     whole: Vec<u32>,
+    /// Input edges that pieces may be, by their ends.
+    input_edges: FxHashMap<[u32; 2], u32>,
     /// Edges that are pieces, by their ends.
     ids: FxHashMap<[u32; 2], u32>,
 }
@@ -138,7 +145,7 @@ impl Builder<'_> {
         let ends = self.soup.edges[edge as usize];
         let direction = self.soup.geometry.direction(Along::Edge(ends));
         let id =
-            self.push_edge(ends.map(|v| self.compact[v as usize]), direction, self.soup.soft[edge as usize]);
+            self.push_edge(ends.map(|v| self.compact[v as usize]), direction, self.soup.is_soft(edge));
         self.whole[edge as usize] = id;
         id
     }
@@ -147,7 +154,7 @@ impl Builder<'_> {
     fn half_edge(&mut self, piece: &Piece) -> u32 {
         let [a, b] = piece.ends;
         let ends = [a.min(b), a.max(b)];
-        let input = self.soup.edge_between(ends).filter(|&e| self.cuts.inner[e as usize].is_empty());
+        let input = self.input_edges.get(&ends).copied().filter(|&e| self.cuts.inner[e as usize].is_empty());
         let id = match (input, self.ids.get(&ends)) {
             (Some(edge), _) => self.whole_edge(edge),
             (None, Some(&id)) => id,

@@ -4,11 +4,17 @@
 //! afterwards: each facet is exactly planar, its edges are in one table, and an edge is *soft* when it is only a
 //! diagonal inside a polygon.
 
+mod doubles;
+
 use crate::canonical::Tolerance;
 use crate::error::ArrangementError;
 use crate::grid::Grid;
+use crate::grid_points::PointTable;
+use crate::half_edges;
 use crate::kernel::{Geometry, Sign};
+use crate::parallel;
 use crate::polygon::{Polygon, Shape};
+use crate::split::offsets;
 use lar_core::{Cells, Surface};
 use rustc_hash::FxHashMap;
 
@@ -23,15 +29,12 @@ pub struct Parent {
     pub sign: i8,
 }
 
-/// Grid point by its coordinates.
-pub(crate) type PointIds = FxHashMap<[i64; 3], u32>;
-
 /// The vertices of the input in their places.
 #[derive(Debug)]
 pub(crate) struct Placed {
     pub grid: Grid,
     pub geometry: Geometry,
-    pub point_ids: PointIds,
+    pub point_ids: PointTable,
     /// The point of each vertex of each surface.
     pub point_of: Vec<Vec<u32>>,
     /// How far each point may lie from where it was meant to be.
@@ -69,10 +72,12 @@ pub(crate) struct Soup {
     pub grid: Grid,
     /// Ends of each edge, the smaller first.
     pub edges: Vec<[u32; 2]>,
-    /// Whether an edge is only a diagonal inside a nearly planar polygon.
-    pub soft: Vec<bool>,
+    /// Whether each edge is only a diagonal inside a nearly planar polygon; empty when none is.
+    soft: Vec<bool>,
     /// Directed edges of each facet: 2 · edge + (1 when from the larger end to the smaller).
     pub facet_edges: Cells,
+    /// For each edge the facet that runs along it and the one that runs against it, or `NONE` or `MANY`.
+    pub facets_of_edge: Vec<[u32; 2]>,
     /// The polygon that each facet is (a piece of).
     pub facet_polygon: Vec<u32>,
     parents: Vec<Parent>,
@@ -80,10 +85,8 @@ pub(crate) struct Soup {
     parent_offsets: Vec<u32>,
     /// Whether a polygon is planar, exactly or within the tolerance.
     pub polygon_flat: Vec<bool>,
-    /// Edge by its ends.
-    edge_ids: FxHashMap<[u32; 2], u32>,
-    /// Grid point by its coordinates.
-    pub point_ids: PointIds,
+    /// Grid points by their coordinates.
+    pub point_ids: PointTable,
     /// The point of each vertex of each surface.
     pub point_of: Vec<Vec<u32>>,
     /// How far each point may lie from where it was meant to be.
@@ -106,45 +109,60 @@ impl Soup {
     pub(crate) fn new(surfaces: &[Surface], placed: Placed) -> Self {
         let Placed { grid, geometry, point_ids, point_of, tolerances, plane_of_face } = placed;
         let mut builder = Builder {
-            soup: Self {
-                geometry,
-                grid,
-                edges: Vec::new(),
-                soft: Vec::new(),
-                facet_edges: Cells::new(),
-                facet_polygon: Vec::new(),
-                parents: Vec::new(),
-                parent_offsets: Vec::new(),
-                polygon_flat: Vec::new(),
-                edge_ids: FxHashMap::default(),
-                point_ids,
-                point_of: Vec::new(),
-                tolerances,
-                coefficients: Vec::new(),
-                degenerate: 0,
-                triangulated: 0,
-                bend: 0.0,
-            },
-            triangle_ids: FxHashMap::default(),
-            polygon_ids: FxHashMap::default(),
+            geometry,
+            tolerances: &tolerances,
+            facets: Facets { offsets: vec![0], ..Facets::default() },
+            polygon_flat: Vec::new(),
             parents: Vec::new(),
-            directed: Vec::new(),
-
+            polygon_ids: FxHashMap::default(),
+            degenerate: 0,
+            triangulated: 0,
+            bend: 0.0,
             plane: None,
         };
-        let n_faces = surfaces.iter().map(Surface::n_faces).sum();
-        builder.parents.reserve(n_faces);
-        builder.triangle_ids.reserve(n_faces);
-        builder.soup.edge_ids.reserve(n_faces * 3 / 2);
+        let mut coefficients = Vec::new();
         for (solid, (surface, point_of)) in surfaces.iter().zip(&point_of).enumerate() {
-            for face in 0..surface.n_faces() {
-                builder.plane = plane_of_face.get(solid).and_then(|planes| planes[face]);
-                builder.push_face(solid, surface, face, point_of);
+            let planes = plane_of_face.get(solid).map_or(&[][..], Vec::as_slice);
+            match surface.triangles() {
+                Some(corners) if builder.geometry.is_on_grid() => {
+                    builder.push_triangles_of(solid, corners, point_of);
+                }
+                _ => builder.push_faces(solid, surface, point_of, planes),
             }
-            builder.soup.coefficients.push((0..surface.n_faces()).map(|f| surface.coefficient(f)).collect());
+            coefficients.push((0..surface.n_faces()).map(|f| surface.coefficient(f)).collect());
         }
-        builder.soup.point_of = point_of;
-        builder.finished()
+        let Builder { geometry, facets, polygon_flat, parents, degenerate, triangulated, bend, .. } = builder;
+        let (edges, directed) = half_edges::edges(geometry.n_points(), &facets.tails, &facets.heads);
+        let soft = facets.soft_edges(edges.len(), &directed);
+        let facet_edges = Cells::from_parts(facets.offsets, directed);
+        let facets_of_edge = half_edges::facets_of_edges(edges.len(), &facet_edges);
+        let (parents, parent_offsets) = by_polygon(polygon_flat.len(), parents);
+        let soup = Self {
+            geometry,
+            grid,
+            edges,
+            soft,
+            facet_edges,
+            facets_of_edge,
+            facet_polygon: facets.polygon,
+            parents,
+            parent_offsets,
+            polygon_flat,
+            point_ids,
+            point_of,
+            tolerances,
+            coefficients,
+            degenerate,
+            triangulated,
+            bend,
+        };
+        let doubles = doubles::of(&soup);
+        if doubles.is_empty() { soup } else { doubles::dropped(soup, &doubles) }
+    }
+
+    /// Whether an edge is only a diagonal inside a nearly planar polygon.
+    pub(crate) fn is_soft(&self, edge: u32) -> bool {
+        !self.soft.is_empty() && self.soft[edge as usize]
     }
 
     pub(crate) fn n_facets(&self) -> usize {
@@ -157,9 +175,16 @@ impl Soup {
         if edge.is_multiple_of(2) { [a, b] } else { [b, a] }
     }
 
-    /// The input edge with these ends, the smaller first.
-    pub(crate) fn edge_between(&self, ends: [u32; 2]) -> Option<u32> {
-        self.edge_ids.get(&ends).copied()
+    /// The input edges with ends among the pairs in `wanted`, the smaller first. O(edges + pairs).
+    pub(crate) fn edges_between(&self, wanted: impl Iterator<Item = [u32; 2]>) -> FxHashMap<[u32; 2], u32> {
+        let mut is_wanted = vec![false; self.geometry.n_points()];
+        let mut any = false;
+        for [low, _] in wanted {
+            is_wanted[low as usize] = true;
+            any = true;
+        }
+        let edges = self.edges.iter().copied().zip(0..).filter(|_| any);
+        edges.filter(|([low, _], _)| is_wanted[*low as usize]).collect()
     }
 
     /// A number that is equal for facets of one polygon that is meant to be planar.
@@ -219,72 +244,131 @@ fn fitted_grid(surfaces: &[Surface]) -> Result<Grid, ArrangementError> {
 
 /// Distinct grid points in first-seen order, their numbers, and for each surface the grid point of each of its
 /// vertices.
-fn unified_points(surfaces: &[Surface], grid: &Grid) -> (Vec<[i64; 3]>, PointIds, Vec<Vec<u32>>) {
-    let mut points = Vec::new();
-    let mut ids = PointIds::default();
-    ids.reserve(surfaces.iter().map(|s| s.points.len()).sum());
+fn unified_points(surfaces: &[Surface], grid: &Grid) -> (Vec<[i64; 3]>, PointTable, Vec<Vec<u32>>) {
+    let n = surfaces.iter().map(|s| s.points.len()).sum();
+    let (mut points, mut ids) = (Vec::with_capacity(n), PointTable::with_capacity(n));
     let of = surfaces
         .iter()
         .map(|surface| {
-            surface
-                .points
-                .iter()
-                .map(|p| {
-                    let snapped = grid.snap([p[0], p[1], p[2]]);
-                    *ids.entry(snapped).or_insert_with(|| {
-                        points.push(snapped);
-                        points.len() as u32 - 1
-                    })
-                })
-                .collect()
+            let snapped = surface.points.iter().map(|p| grid.snap([p[0], p[1], p[2]]));
+            snapped.map(|p| ids.number(p, &mut points)).collect()
         })
         .collect();
     (points, ids, of)
 }
 
-struct Builder {
-    soup: Soup,
-    triangle_ids: FxHashMap<[u32; 3], (u32, bool)>,
-    polygon_ids: FxHashMap<Vec<u32>, (u32, bool)>,
+/// Facets as they come.
+#[derive(Default)]
+struct Facets {
+    /// The half-edges of facet f are `offsets[f]..offsets[f + 1]`.
+    offsets: Vec<u32>,
+    tails: Vec<u32>,
+    heads: Vec<u32>,
+    /// Half-edges that are diagonals inside a polygon, ascending.
+    soft: Vec<u32>,
+    polygon: Vec<u32>,
+}
+
+impl Facets {
+    fn push(&mut self, half_edges: impl Iterator<Item = [u32; 2]>, polygon: u32) {
+        for [p, q] in half_edges {
+            self.tails.push(p);
+            self.heads.push(q);
+        }
+        self.offsets.push(u32::try_from(self.tails.len()).expect("fewer than 2^32 half-edges"));
+        self.polygon.push(polygon);
+    }
+
+    /// Whether each edge is a diagonal in all its facets.
+    fn soft_edges(&self, n_edges: usize, directed: &[u32]) -> Vec<bool> {
+        if self.soft.is_empty() {
+            return Vec::new();
+        }
+        let mut soft = vec![true; n_edges];
+        let mut rest = self.soft.as_slice();
+        for (&code, h) in directed.iter().zip(0u32..) {
+            match rest.split_first() {
+                Some((&first, after)) if first == h => rest = after,
+                _ => soft[(code / 2) as usize] = false,
+            }
+        }
+        soft
+    }
+}
+
+/// Parents sorted by polygon, each polygon's in the order of the input, and where each polygon's begin.
+fn by_polygon(n_polygons: usize, mut parents: Vec<(u32, Parent)>) -> (Vec<Parent>, Vec<u32>) {
+    if !parents.is_sorted_by_key(|p| p.0) {
+        parents.sort_by_key(|p| p.0);
+    }
+    let offsets = offsets(n_polygons, parents.iter().map(|p| p.0));
+    (parents.into_iter().map(|p| p.1).collect(), offsets)
+}
+
+/// Triangles a chunk of work.
+const TRIANGLES_A_CHUNK: usize = 4096;
+
+struct Builder<'a> {
+    geometry: Geometry,
+    tolerances: &'a [Tolerance],
+    facets: Facets,
+    polygon_flat: Vec<bool>,
     /// Polygon and parent, in the order of the input.
     parents: Vec<(u32, Parent)>,
-    /// Buffer for the edges of one facet.
-    directed: Vec<u32>,
-
+    polygon_ids: FxHashMap<Vec<u32>, (u32, bool)>,
+    degenerate: u32,
+    triangulated: u32,
+    bend: f64,
     /// The shared plane of the face at hand.
     plane: Option<u32>,
 }
 
-impl Builder {
-    fn push_face(&mut self, solid: usize, surface: &Surface, face: usize, point_of: &[u32]) {
-        let mut loops = surface.face(face);
-        if let (1, Some(&[a, b, c])) = (loops.len(), loops.next()) {
-            self.push_triangle(solid, face, [a, b, c].map(|v| point_of[v as usize]));
-        } else {
-            self.push_general_face(solid, surface, face, point_of);
+impl Builder<'_> {
+    /// The faces of a surface of triangles on the grid.
+    fn push_triangles_of(&mut self, solid: usize, corners: &[u32], point_of: &[u32]) {
+        let (n_chunks, range) = parallel::chunks(corners.len() / 3, TRIANGLES_A_CHUNK);
+        let parts = parallel::map(n_chunks, |chunk| {
+            let chosen = corners[3 * range(chunk).start..3 * range(chunk).end].as_chunks::<3>().0.iter();
+            let bases = chosen.map(|t| t.map(|v| point_of[v as usize]));
+            bases.map(|base| (base, self.geometry.grid_normal(base))).collect::<Vec<_>>()
+        });
+        let first = self.polygon_flat.len() as u32;
+        let mut polygon = first;
+        for ((base, normal), face) in parts.into_iter().flatten().zip(0..) {
+            if normal == [0.0; 3] {
+                self.degenerate += 1;
+                continue;
+            }
+            self.geometry.push_grid_facet(base, normal);
+            let [a, b, c] = base;
+            self.facets.push([[a, b], [b, c], [c, a]].into_iter(), polygon);
+            self.parents.push((polygon, Parent { solid: solid as u32, face, sign: 1 }));
+            polygon += 1;
+        }
+        self.polygon_flat.resize(polygon as usize, true);
+    }
+
+    fn push_faces(&mut self, solid: usize, surface: &Surface, point_of: &[u32], planes: &[Option<u32>]) {
+        for face in 0..surface.n_faces() {
+            self.plane = planes.get(face).copied().flatten();
+            let mut loops = surface.face(face);
+            if let (1, Some(&[a, b, c])) = (loops.len(), loops.next()) {
+                self.push_triangle(solid, face, [a, b, c].map(|v| point_of[v as usize]));
+            } else {
+                self.push_general_face(solid, surface, face, point_of);
+            }
         }
     }
 
-    fn push_triangle(&mut self, solid: usize, face: usize, [a, b, c]: [u32; 3]) {
-        if a == b || b == c || c == a {
-            self.soup.degenerate += 1;
+    fn push_triangle(&mut self, solid: usize, face: usize, corners: [u32; 3]) {
+        let [a, b, c] = corners;
+        let polygon = self.polygon_flat.len() as u32;
+        if a == b || b == c || c == a || !self.push_triangle_facet(corners, polygon, |_| false) {
+            self.degenerate += 1;
             return;
         }
-        let mut key = [a, b, c];
-        key.sort_unstable();
-        let reversed = is_reversed(&[a, b, c]);
-        if let Some(&(polygon, first_reversed)) = self.triangle_ids.get(&key) {
-            self.push_parent(polygon, solid, face, reversed == first_reversed);
-            return;
-        }
-        let polygon = self.soup.polygon_flat.len() as u32;
-        if !self.push_triangle_facet([a, b, c], polygon, |_| false) {
-            self.soup.degenerate += 1;
-            return;
-        }
-        self.soup.polygon_flat.push(true);
+        self.polygon_flat.push(true);
         self.push_parent(polygon, solid, face, true);
-        self.triangle_ids.insert(key, (polygon, reversed));
     }
 
     fn push_general_face(&mut self, solid: usize, surface: &Surface, face: usize, point_of: &[u32]) {
@@ -292,7 +376,7 @@ impl Builder {
             surface.face(face).map(|l| without_repetition(l.iter().map(|&v| point_of[v as usize]))).collect();
         loops.retain(|l| l.len() >= 3);
         if loops.is_empty() {
-            self.soup.degenerate += 1;
+            self.degenerate += 1;
             return;
         }
         if let [cycle] = loops.as_slice()
@@ -306,12 +390,12 @@ impl Builder {
             self.push_parent(polygon, solid, face, reversed == first_reversed);
             return;
         }
-        let polygon = self.soup.polygon_flat.len() as u32;
+        let polygon = self.polygon_flat.len() as u32;
         let Some(flat) = self.push_polygon(&loops, polygon) else {
-            self.soup.degenerate += 1;
+            self.degenerate += 1;
             return;
         };
-        self.soup.polygon_flat.push(flat);
+        self.polygon_flat.push(flat);
         self.push_parent(polygon, solid, face, true);
         self.polygon_ids.insert(key, (polygon, reversed));
     }
@@ -321,36 +405,15 @@ impl Builder {
         self.parents.push((polygon, Parent { solid: solid as u32, face: face as u32, sign }));
     }
 
-    /// Sorts the parents by polygon; each polygon's stay in the order of the input.
-    fn finished(self) -> Soup {
-        let mut soup = self.soup;
-        let mut offsets = vec![0u32; soup.polygon_flat.len() + 1];
-        for (polygon, _) in &self.parents {
-            offsets[*polygon as usize + 1] += 1;
-        }
-        for p in 1..offsets.len() {
-            offsets[p] += offsets[p - 1];
-        }
-        let mut fill = offsets.clone();
-        soup.parents = vec![Parent { solid: 0, face: 0, sign: 1 }; self.parents.len()];
-        for (polygon, parent) in self.parents {
-            let at = &mut fill[polygon as usize];
-            soup.parents[*at as usize] = parent;
-            *at += 1;
-        }
-        soup.parent_offsets = offsets;
-        soup
-    }
-
     /// Adds the facets of a polygon, and tells whether it counts as planar; `None` when it has no inside.
     fn push_polygon(&mut self, loops: &[Vec<u32>], polygon: u32) -> Option<bool> {
         let views: Vec<&[u32]> = loops.iter().map(Vec::as_slice).collect();
-        let shape = Polygon { geometry: &self.soup.geometry, loops: &views, plane: self.plane };
+        let shape = Polygon { geometry: &self.geometry, loops: &views, plane: self.plane };
         match shape.shape() {
             Shape::Planar { base, positive } => {
                 let edges = loops.iter().flat_map(|l| (0..l.len()).map(|i| [l[i], l[(i + 1) % l.len()]]));
                 self.push_edges(edges, polygon, |_| false);
-                let geometry = &mut self.soup.geometry;
+                let geometry = &mut self.geometry;
                 match self.plane {
                     Some(plane) => {
                         let (_, up) = geometry.dominant_axis_of_plane(plane);
@@ -363,9 +426,9 @@ impl Builder {
             Shape::Triangles(triangles) => {
                 let deviation = shape.deviation();
                 let corners = loops.iter().flatten();
-                let flat = deviation <= Tolerance::of(&self.soup.tolerances, corners.copied()).flatness();
+                let flat = deviation <= Tolerance::of(self.tolerances, corners.copied()).flatness();
                 if flat {
-                    self.soup.bend = self.soup.bend.max(deviation);
+                    self.bend = self.bend.max(deviation);
                 }
                 self.push_triangles(loops, &triangles, polygon, flat).then_some(flat)
             }
@@ -385,12 +448,12 @@ impl Builder {
             .flat_map(|l| (0..l.len()).map(|i| ascending([l[i], l[(i + 1) % l.len()]])))
             .collect();
         sides.sort_unstable();
-        let before = self.soup.n_facets();
+        let before = self.facets.polygon.len();
         for &[a, b, c] in triangles {
             self.push_triangle_facet([a, b, c], polygon, |e| flat && sides.binary_search(&e).is_err());
         }
-        self.soup.triangulated += 1;
-        self.soup.n_facets() > before
+        self.triangulated += 1;
+        self.facets.polygon.len() > before
     }
 
     /// Adds a triangle; false when its corners are on one line.
@@ -410,7 +473,7 @@ impl Builder {
     /// Adds the plane of a facet by three corners that turn about its normal: the shared one of the face at hand, when
     /// all three are on it. False, and nothing is added, when they are on one line.
     fn push_plane(&mut self, base: [u32; 3]) -> bool {
-        let geometry = &mut self.soup.geometry;
+        let geometry = &mut self.geometry;
         let plane = self.plane.filter(|&plane| base.iter().all(|&p| geometry.is_defined_on(p, plane)));
         if let Some(plane) = plane {
             let (axis, up) = geometry.dominant_axis_of_plane(plane);
@@ -433,27 +496,12 @@ impl Builder {
         polygon: u32,
         is_soft: impl Fn([u32; 2]) -> bool,
     ) {
-        let mut directed = std::mem::take(&mut self.directed);
-        directed.clear();
-        directed.extend(edges.map(|[p, q]| {
-            let ends = ascending([p, q]);
-            let soft = is_soft(ends);
-            2 * self.edge(ends, soft) + u32::from(p > q)
-        }));
-        self.soup.facet_edges.push(&directed);
-        self.directed = directed;
-        self.soup.facet_polygon.push(polygon);
-    }
-
-    fn edge(&mut self, ends: [u32; 2], soft: bool) -> u32 {
-        let soup = &mut self.soup;
-        let id = *soup.edge_ids.entry(ends).or_insert_with(|| {
-            soup.edges.push(ends);
-            soup.soft.push(true);
-            soup.edges.len() as u32 - 1
-        });
-        soup.soft[id as usize] &= soft;
-        id
+        let first = self.facets.tails.len() as u32;
+        self.facets.push(edges, polygon);
+        let pushed = first..self.facets.tails.len() as u32;
+        let ends = |h: u32| ascending([self.facets.tails[h as usize], self.facets.heads[h as usize]]);
+        let soft: Vec<u32> = pushed.filter(|&h| is_soft(ends(h))).collect();
+        self.facets.soft.extend(soft);
     }
 }
 

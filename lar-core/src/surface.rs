@@ -58,6 +58,22 @@ impl Surface {
         (self.face_loops[f]..self.face_loops[f + 1]).map(|l| &self.loops[l as usize])
     }
 
+    /// The vertices of the faces, three for each, when all faces are triangles without holes. O(n).
+    ///
+    /// ```
+    /// use lar_core::{Cells, Surface, cuboid_grid, icosphere};
+    /// let ball = Surface::from_triangles("ball", &icosphere(0));
+    /// assert_eq!(ball.triangles().map(<[u32]>::len), Some(60));
+    /// assert_eq!(cuboid_grid(&[1, 1, 1]).to_surface()?.triangles(), None);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn triangles(&self) -> Option<&[u32]> {
+        let single = self.loops.len() == self.n_faces() && self.face_loops.windows(2).all(|w| w[0] < w[1]);
+        let three = self.loops.offsets().windows(2).all(|w| w[1] - w[0] == 3);
+        (single && three).then(|| self.loops.indices())
+    }
+
     /// The coefficient of face `f` in the boundary of the solid.
     #[must_use]
     pub fn coefficient(&self, f: usize) -> i8 {

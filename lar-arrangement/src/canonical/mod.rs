@@ -15,6 +15,7 @@ mod placement;
 mod scan;
 mod vector;
 
+use crate::grid_points::PointTable;
 use crate::kernel::Geometry;
 use crate::soup::{Placed, Soup};
 pub(crate) use scan::Scan;
@@ -122,7 +123,8 @@ pub(crate) fn merged_points(input: &Input, scan: &Scan, report: &mut Report) -> 
             new_id[follows as usize]
         };
     }
-    let point_ids = staying.iter().copied().zip(0..).collect();
+    let mut point_ids = PointTable::with_capacity(staying.len());
+    staying.iter().zip(0..).for_each(|(&at, id)| point_ids.insert(at, id, |id| staying[id as usize]));
     Some(Placed {
         grid: input.soup.grid,
         geometry: Geometry::new(staying),

@@ -4,7 +4,8 @@ use super::cluster::Cluster;
 use super::vector::distance;
 use super::{Report, carried, renumbered};
 use crate::kernel::{CanonicalPoints, Geometry, Plane, RationalPoint, SharedPlane, Sign, dominant_axis};
-use crate::soup::{Placed, PointIds, Soup};
+use crate::grid_points::PointTable;
+use crate::soup::{Placed, Soup};
 use rustc_hash::FxHashMap;
 
 /// The vertices of a soup with the corners of the clusters on their planes, and the plane of each face.
@@ -127,13 +128,14 @@ impl Placement {
 
     fn finished(self, soup: &Soup, planes: Vec<SharedPlane>, plane_of_face: Vec<Vec<Option<u32>>>) -> Placed {
         let mut canonical = CanonicalPoints { planes, ..CanonicalPoints::default() };
-        let (mut points, mut point_ids) = (Vec::with_capacity(self.points.len()), PointIds::default());
+        let n = self.points.len();
+        let (mut points, mut point_ids) = (Vec::with_capacity(n), PointTable::with_capacity(n));
         for ((point, on), id) in self.points.iter().zip(0..) {
             let nearest = point.rounded().map(|x| x.round() as i64);
             points.push(nearest);
             canonical.planes_of_point.push(on);
             if RationalPoint::grid(nearest).widened::<5>().equals(&point.widened()) {
-                point_ids.insert(nearest, id);
+                point_ids.insert(nearest, id, |id| points[id as usize]);
                 canonical.entry.push(0);
             } else {
                 canonical.rational.push(*point);

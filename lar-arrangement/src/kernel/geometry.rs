@@ -55,8 +55,16 @@ pub(crate) struct Vertex {
     pub def: VertexDef,
 }
 
-/// f64 image of a facet's plane: `normal` is the exact one rounded (relative error 2^-53 a component, and a
-/// positive factor), `origin` a point on it, rounded, and `slack` bounds what that rounding does to a side.
+/// A facet by three of its corners that are not collinear and turn counter-clockwise about its normal.
+#[derive(Clone, Copy, Debug)]
+struct Facet {
+    base: [u32; 3],
+    /// The exact normal rounded: relative error below 2^-52 a component, and a positive factor.
+    normal: [f64; 3],
+}
+
+/// f64 image of a facet's plane: the rounded normal, `origin` a point on it, rounded, and `slack` bounds what that
+/// rounding does to a side.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FloatPlane {
     pub normal: [f64; 3],
@@ -108,12 +116,11 @@ pub(crate) struct Geometry {
     close_positions: Vec<[Double; 3]>,
     /// The shared planes in about 106 bits.
     close_planes: Vec<ApproxPlane>,
-    bases: Vec<[u32; 3]>,
+    facets: Vec<Facet>,
     /// For each facet 0, or 1 + 2 · shared plane, + 1 when it looks the other way; empty in a scene without any.
     plane_codes: Vec<u32>,
     /// The first facet on each shared plane.
     first_on_plane: Vec<u32>,
-    planes: Vec<FloatPlane>,
     reach: Reach,
     pub counters: Counters,
 }
@@ -193,8 +200,7 @@ impl Geometry {
     /// Adds a facet by three of its vertices that are not collinear and turn counter-clockwise about its normal.
     pub(crate) fn push_facet(&mut self, base: [u32; 3]) {
         if self.reach == Reach::Grid || base.iter().all(|&p| self.rational_entry(p).is_none()) {
-            let [a, b, c] = base.map(|p| self.points[p as usize]);
-            self.push_facet_with(base, Plane::through(a, b, c).n.map(|n| n as f64), 0);
+            self.push_facet_with(base, self.grid_normal(base), 0);
             return;
         }
         self.reach = Reach::Mixed;
@@ -206,6 +212,39 @@ impl Geometry {
         self.push_facet_with(base, rounded_normal(&plane), code);
     }
 
+    /// The normal of a triangle of grid points, rounded; zero when they are collinear.
+    pub(crate) fn grid_normal(&self, base: [u32; 3]) -> [f64; 3] {
+        let [a, b, c] = base.map(|p| self.points[p as usize]);
+        Plane::normal_through(a, b, c).map(to_f64)
+    }
+
+    /// Whether all points and planes are those of the grid.
+    pub(crate) fn is_on_grid(&self) -> bool {
+        self.reach == Reach::Grid && self.canonical.planes.is_empty()
+    }
+
+    /// Adds a facet by three grid points and the normal that `grid_normal` gives for them, in a scene on the grid.
+    pub(crate) fn push_grid_facet(&mut self, base: [u32; 3], normal: [f64; 3]) {
+        self.facets.push(Facet { base, normal });
+    }
+
+    /// Keeps the facets for which `keep` holds, by their numbers, and numbers them anew.
+    pub(crate) fn retain_facets(&mut self, keep: impl Fn(u32) -> bool) {
+        let kept = |f: &u32| keep(*f);
+        if !self.plane_codes.is_empty() {
+            self.plane_codes.resize(self.facets.len(), 0);
+            self.plane_codes = (0..self.facets.len() as u32).filter(kept).map(|f| self.plane_codes[f as usize]).collect();
+            self.first_on_plane.fill(u32::MAX);
+            for (&code, facet) in self.plane_codes.iter().zip(0..) {
+                if let Some(plane) = code.checked_sub(1) {
+                    let first = &mut self.first_on_plane[plane as usize / 2];
+                    *first = (*first).min(facet);
+                }
+            }
+        }
+        self.facets = (0..self.facets.len() as u32).filter(kept).map(|f| self.facets[f as usize]).collect();
+    }
+
     /// Adds a facet on a shared plane by three of its vertices that are not collinear; `flipped` when these turn
     /// clockwise about the plane's normal.
     pub(crate) fn push_facet_on(&mut self, base: [u32; 3], plane: u32, flipped: bool) {
@@ -215,7 +254,7 @@ impl Geometry {
     }
 
     fn push_facet_with(&mut self, base: [u32; 3], normal: [f64; 3], code: u32) {
-        let facet = self.bases.len();
+        let facet = self.facets.len();
         if code != 0 || !self.plane_codes.is_empty() {
             self.plane_codes.resize(facet, 0);
             self.plane_codes.push(code);
@@ -224,15 +263,14 @@ impl Geometry {
             let first = &mut self.first_on_plane[plane as usize / 2];
             *first = (*first).min(facet as u32);
         }
-        // A rounded origin and a rounded position are off by 2^-13 each, their difference by 2^-12 more.
-        let weight = if self.reach == Reach::Grid { 0.0 } else { normal.iter().map(|n| n.abs()).sum() };
-        self.bases.push(base);
-        let origin = self.position(base[0]);
-        self.planes.push(FloatPlane { normal, origin, slack: weight * 4.0 * ROUNDING });
+        self.facets.push(Facet { base, normal });
     }
 
-    pub(super) fn float(&self, facet: u32) -> &FloatPlane {
-        &self.planes[facet as usize]
+    pub(super) fn float(&self, facet: u32) -> FloatPlane {
+        let Facet { base, normal } = self.facets[facet as usize];
+        // A rounded origin and a rounded position are off by 2^-13 each, their difference by 2^-12 more.
+        let weight = if self.reach == Reach::Grid { 0.0 } else { normal.iter().map(|n| n.abs()).sum() };
+        FloatPlane { normal, origin: self.position(base[0]), slack: weight * 4.0 * ROUNDING }
     }
 
     /// The shared plane of a facet, and whether the facet looks the other way.
@@ -263,7 +301,7 @@ impl Geometry {
     /// Whether a point lies on the facet's plane by definition: as one of the corners that define it, or because it
     /// was put there.
     pub(crate) fn lies_on(&self, p: u32, facet: u32) -> bool {
-        self.bases[facet as usize].contains(&p)
+        self.facets[facet as usize].base.contains(&p)
             || self.shared_plane(facet).is_some_and(|(plane, _)| self.is_defined_on(p, plane))
     }
 
@@ -276,12 +314,12 @@ impl Geometry {
 
     /// The three corners that define the facet's plane.
     pub(crate) fn base(&self, facet: u32) -> [u32; 3] {
-        self.bases[facet as usize]
+        self.facets[facet as usize].base
     }
 
     /// The facet's normal, rounded, up to a positive factor.
     pub(crate) fn normal(&self, facet: u32) -> [f64; 3] {
-        self.planes[facet as usize].normal
+        self.facets[facet as usize].normal
     }
 
     /// The axis along which the facet's normal is longest, and whether it points up that axis. The component is
@@ -327,6 +365,14 @@ impl Geometry {
     /// The first facet on the shared plane of a facet; itself, when it shares none.
     pub(crate) fn first_in_plane(&self, facet: u32) -> u32 {
         self.shared_plane(facet).map_or(facet, |(plane, _)| self.first_on_plane[plane as usize])
+    }
+}
+
+/// The number, off by less than 2^-52 of it: far cheaper than correctly rounded.
+fn to_f64(x: i128) -> f64 {
+    match i64::try_from(x) {
+        Ok(x) => x as f64,
+        Err(_) => ((x >> 64) as i64 as f64) * 18_446_744_073_709_551_616.0 + (x as u64 as f64),
     }
 }
 

@@ -34,8 +34,13 @@ pub(crate) fn dominant_axis(n: [i128; 3]) -> usize {
 impl Plane {
     /// The plane through three points, its normal pointing to where they turn counter-clockwise.
     pub(crate) fn through(a: [i64; 3], b: [i64; 3], c: [i64; 3]) -> Self {
-        let n = cross(wide_difference(b, a), wide_difference(c, a));
+        let n = Self::normal_through(a, b, c);
         Self { n, d: dot(n, a) }
+    }
+
+    /// The normal of the plane through three points.
+    pub(crate) fn normal_through(a: [i64; 3], b: [i64; 3], c: [i64; 3]) -> [i128; 3] {
+        cross(wide_difference(b, a), wide_difference(c, a))
     }
 
     /// The plane through the edge a → b parallel to `axis`; seen along −axis its normal points to the left of

@@ -302,7 +302,7 @@ impl FloatPlane {
     /// The side of an input point, when it is beyond doubt.
     ///
     /// Differences of grid coordinates are exact in f64 (41 bits), those of others within the slack; with three
-    /// rounded normal components, three products and two sums the error is below 6 · 2^-53 of the sum of the
+    /// normal components off by 1.5 · 2^-53, three products and two sums the error is below 7 · 2^-53 of the sum of the
     /// products' magnitudes.
     fn side(&self, p: [f64; 3]) -> Option<Sign> {
         let (sum, magnitude) = self.sum(p);
