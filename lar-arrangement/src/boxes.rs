@@ -233,11 +233,24 @@ impl<const D: usize> BoxTree<D> {
 
     /// All pairs of items whose boxes meet, each once, the smaller first. O(n log n + pairs).
     pub(crate) fn pairs(&self, course: &Course) -> Result<Vec<[u32; 2]>, Cancelled> {
+        self.pairs_but(|_, _| false, course)
+    }
+
+    /// The same without those that are `settled`.
+    pub(crate) fn pairs_but(
+        &self,
+        settled: impl Fn(u32, u32) -> bool + Sync,
+        course: &Course,
+    ) -> Result<Vec<[u32; 2]>, Cancelled> {
         let (n_chunks, range) = parallel::chunks(self.n_blocks(), 64);
         let parts = course.map(n_chunks, |chunk| {
             let mut found = Vec::new();
             for block in range(chunk).take_while(|_| !course.is_cancelled()) {
-                self.pairs_of_block(block, |i, j| found.push([i.min(j), i.max(j)]));
+                self.pairs_of_block(block, |i, j| {
+                    if !settled(i, j) {
+                        found.push([i.min(j), i.max(j)]);
+                    }
+                });
             }
             found
         })?;

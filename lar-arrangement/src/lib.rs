@@ -28,6 +28,7 @@ mod simplify;
 mod skeleton;
 mod soup;
 mod split;
+mod stars;
 mod stats;
 mod subdivision;
 mod trace;

@@ -17,6 +17,7 @@ use crate::progress::{Cancel, Cancelled, Control, Course, Plan, Progress};
 use crate::skeleton::Skeleton;
 use crate::soup::{Parent, Placed, Soup};
 use crate::split::Cuts;
+use crate::stars::Stars;
 use crate::stats::Stats;
 use crate::union_find::UnionFind;
 use crate::winding::{Jumps, Windings};
@@ -223,7 +224,7 @@ impl<'a> Arranger<'a> {
         Ok(out)
     }
 
-    /// Stage 1, and the pairs of facets whose boxes meet.
+    /// Stage 1, and the pairs of facets whose boxes meet and that may have more in common than neighbours in a mesh.
     fn soup_and_pairs(
         &self,
         surfaces: &[Surface],
@@ -236,25 +237,29 @@ impl<'a> Arranger<'a> {
             Planes::AsGiven => 0.0,
             _ => placed.tolerances.iter().map(|t| t.planes()).fold(0.0, f64::max),
         };
+        let distance = placed.tolerances.iter().map(|t| t.points()).fold(0.0, f64::max);
         let mut soup = Soup::new(surfaces, placed);
         course.begin("pairs", stats)?;
-        let mut pairs = BoxTree::new(&facet_boxes(&soup, reach)).pairs(course)?;
+        let mut stars = Stars::new(&soup, distance);
+        let mut pairs = meeting_facets(&soup, &stars, reach, course)?;
         if self.planes == Planes::AsGiven {
             return Ok((soup, pairs));
         }
         course.begin("planes", stats)?;
         let mut report = Report::default();
-        let input = Input { soup: &soup, pairs: &pairs };
+        let input = Input { soup: &soup, pairs: &pairs, stars: &stars };
         let mut scan = Scan::new(&input, course)?;
         if let Some(placed) = canonical::merged_points(&input, &scan, &mut report) {
             soup = Soup::new(surfaces, placed);
-            pairs = BoxTree::new(&facet_boxes(&soup, reach)).pairs(course)?;
-            scan = Scan::new(&Input { soup: &soup, pairs: &pairs }, course)?;
+            stars = Stars::new(&soup, distance);
+            pairs = meeting_facets(&soup, &stars, reach, course)?;
+            scan = Scan::new(&Input { soup: &soup, pairs: &pairs, stars: &stars }, course)?;
         }
-        let input = Input { soup: &soup, pairs: &pairs };
+        let input = Input { soup: &soup, pairs: &pairs, stars: &stars };
         if let Some(placed) = canonical::on_planes(&input, &scan, &mut report) {
             soup = Soup::new(surfaces, placed);
-            pairs = BoxTree::new(&facet_boxes(&soup, 0.0)).pairs(course)?;
+            stars = Stars::new(&soup, distance);
+            pairs = meeting_facets(&soup, &stars, 0.0, course)?;
         }
         stats.canonical_planes = report.planes;
         stats.moved_points = report.moved;
@@ -292,6 +297,17 @@ fn facet_boxes(soup: &Soup, reach: f64) -> Vec<Aabb> {
             Aabb { lo: tight.lo.map(|x| x - reach), hi: tight.hi.map(|x| x + reach) }
         })
         .collect()
+}
+
+/// The pairs of facets whose boxes, larger by `reach`, meet, without those that a clean point settles.
+fn meeting_facets(
+    soup: &Soup,
+    stars: &Stars,
+    reach: f64,
+    course: &Course,
+) -> Result<Vec<[u32; 2]>, Cancelled> {
+    let tree = BoxTree::new(&facet_boxes(soup, reach));
+    tree.pairs_but(|f, g| stars.settle(&soup.geometry, f, g), course)
 }
 
 fn contacts(soup: &Soup, pairs: &[[u32; 2]], course: &Course) -> Result<Contacts, Cancelled> {

@@ -202,6 +202,33 @@ impl Search<'_> {
         }
     }
 
+    /// The same for facets that share a clean point with a facet of a cluster. O(facets · clusters at a point).
+    fn add_touching_neighbours(
+        &self,
+        clusters: &[Cluster],
+        cluster_of: impl Fn(u32) -> Option<u32>,
+        touching: &mut Vec<(u32, u32)>,
+    ) {
+        let mut at_point: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
+        for (cluster, id) in clusters.iter().zip(0..) {
+            let clean = cluster.corners.iter().filter(|&&p| self.input.stars.is_clean(p));
+            clean.for_each(|&p| at_point.entry(p).or_default().push(id));
+        }
+        if at_point.is_empty() {
+            return;
+        }
+        for facet in 0..self.input.soup.n_facets() as u32 {
+            for p in self.input.corners(facet) {
+                let others = at_point.get(&p).into_iter().flatten().filter(|&&id| cluster_of(facet) != Some(id));
+                for &id in others {
+                    let cluster = &clusters[id as usize];
+                    let near = |&q: &u32| cluster.fit.distance(self.geometry(), q) <= cluster.tolerance;
+                    touching.extend(self.input.corners(facet).filter(near).map(|q| (id, q)));
+                }
+            }
+        }
+    }
+
     /// Gives the clusters the corners of other facets that lie on them or nearly so: a corner that rests on a face.
     fn add_touching_corners(&self, clusters: &mut [Cluster]) {
         let mut cluster_of = vec![None; self.input.soup.polygon_flat.len()];
@@ -218,6 +245,7 @@ impl Search<'_> {
                 touching.extend(self.input.corners(g).filter(near).map(|p| (id, p)));
             }
         }
+        self.add_touching_neighbours(clusters, of_facet, &mut touching);
         touching.sort_unstable();
         touching.dedup();
         for (id, p) in touching {

@@ -17,7 +17,9 @@ mod vector;
 
 use crate::grid_points::PointTable;
 use crate::kernel::Geometry;
+use crate::half_edges::MANY;
 use crate::soup::{Placed, Soup};
+use crate::stars::Stars;
 pub(crate) use scan::Scan;
 use vector::distance;
 
@@ -48,7 +50,7 @@ impl Tolerance {
     }
 
     /// Two points that were one differ by two errors in a coordinate.
-    fn points(self) -> f64 {
+    pub(crate) fn points(self) -> f64 {
         3.0 * self.error
     }
 
@@ -83,15 +85,30 @@ impl Report {
     }
 }
 
-/// Facets of a soup, and the pairs of them whose boxes meet.
+/// Facets of a soup, and the pairs of them whose boxes meet but for those that share a clean point.
 pub(crate) struct Input<'a> {
     pub soup: &'a Soup,
     pub pairs: &'a [[u32; 2]],
+    pub stars: &'a Stars,
 }
 
 impl Input<'_> {
     fn tolerance(&self, facet: u32) -> Tolerance {
         Tolerance::of(&self.soup.tolerances, self.corners(facet))
+    }
+
+    /// The two facets at an edge with a clean end, which are not among the pairs.
+    fn neighbours_at(&self, edge: u32) -> Option<[u32; 2]> {
+        let is_clean = |&p: &u32| self.stars.is_clean(p);
+        let facets = self.soup.facets_of_edge[edge as usize];
+        let are_two = facets.iter().all(|&facet| facet < MANY);
+        (are_two && self.soup.edges[edge as usize].iter().any(is_clean)).then_some(facets)
+    }
+
+    /// Whether the corners of a facet are known to be apart: a triangle with two clean corners has them on all its sides.
+    fn is_clean_triangle(&self, facet: u32) -> bool {
+        let corners = self.soup.geometry.base(facet);
+        corners.iter().filter(|&&p| self.stars.is_clean(p)).count() >= 2
     }
 
     fn corners(&self, facet: u32) -> impl Iterator<Item = u32> + Clone + '_ {

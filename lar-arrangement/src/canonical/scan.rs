@@ -2,7 +2,6 @@
 
 use super::Input;
 use super::vector::{distance, dot, minus};
-use crate::boxes::{Aabb, BoxTree};
 use crate::parallel;
 use crate::progress::{Cancelled, Course};
 
@@ -46,37 +45,55 @@ impl Scan {
     pub(crate) fn new(input: &Input, course: &Course) -> Result<Self, Cancelled> {
         let shapes = parallel::map(input.soup.n_facets(), |f| Shape::of(input, f as u32));
         let outlines: Vec<Outline> = shapes.iter().map(Outline::of).collect();
+        let is_coplanar = |&[f, g]: &[u32; 2]| {
+            !outlines[f as usize].is_across(&outlines[g as usize]) && are_nearly_coplanar(input, &shapes, [f, g])
+        };
         let (n_chunks, range) = parallel::chunks(input.pairs.len(), PAIRS_A_CHUNK);
-        let coplanar = course.map(n_chunks, |chunk| {
-            let pairs = input.pairs[range(chunk)].iter().copied();
-            let near = |&[f, g]: &[u32; 2]| {
-                !outlines[f as usize].is_across(&outlines[g as usize])
-                    && are_nearly_coplanar(input, &shapes, [f, g])
-            };
-            pairs.filter(near).collect::<Vec<_>>()
+        let mut coplanar = course.map(n_chunks, |chunk| {
+            input.pairs[range(chunk)].iter().copied().filter(is_coplanar).collect::<Vec<_>>()
         })?;
+        let (n_chunks, range) = parallel::chunks(input.soup.edges.len(), PAIRS_A_CHUNK);
+        coplanar.extend(course.map(n_chunks, |chunk| {
+            let edges = range(chunk).start as u32..range(chunk).end as u32;
+            edges.filter_map(|edge| input.neighbours_at(edge)).filter(is_coplanar).collect::<Vec<_>>()
+        })?);
         Ok(Self { near: near_points(input, course)?, coplanar: coplanar.concat(), shapes })
     }
 }
 
-/// Pairs of points within the tolerance, ascending.
+/// Pairs of points of different facets or of one within the tolerance, ascending. Corners of facets that share a clean
+/// point are farther apart.
 fn near_points(input: &Input, course: &Course) -> Result<Vec<[u32; 2]>, Cancelled> {
     let geometry = &input.soup.geometry;
-    let limits: Vec<f64> = input.soup.tolerances.iter().map(|t| t.points()).collect();
-    let boxed = |(&limit, p): (&f64, u32)| {
-        let at = geometry.position(p);
-        Aabb { lo: at.map(|x| x - limit), hi: at.map(|x| x + limit) }
-    };
-    let boxes: Vec<Aabb> = limits.iter().zip(0..).map(boxed).collect();
-    let is_near = |&[p, q]: &[u32; 2]| {
+    let limit = |p: u32| input.soup.tolerances[p as usize].points();
+    let is_near = |p: u32, q: u32| {
         let (a, b) = (geometry.nearest_grid_point(p), geometry.nearest_grid_point(q));
-        let limit = limits[p as usize].max(limits[q as usize]);
-        (0..3).all(|k| a[k].abs_diff(b[k]) as f64 <= limit)
+        let limit = limit(p).max(limit(q));
+        p != q && (0..3).all(|k| a[k].abs_diff(b[k]) as f64 <= limit)
     };
-    let ascending = |[p, q]: [u32; 2]| [p.min(q), p.max(q)];
-    let mut near: Vec<[u32; 2]> =
-        BoxTree::new(&boxes).pairs(course)?.into_iter().filter(is_near).map(ascending).collect();
+    // At most 64 corners a facet.
+    let between = |f: u32, g: u32, near: &mut Vec<[u32; 2]>| {
+        for p in input.corners(f) {
+            let close = input.corners(g).filter(|&q| is_near(p, q));
+            near.extend(close.map(|q| [p.min(q), p.max(q)]));
+        }
+    };
+    let (n_chunks, range) = parallel::chunks(input.pairs.len(), PAIRS_A_CHUNK);
+    let mut near = course.map(n_chunks, |chunk| {
+        let mut near = Vec::new();
+        input.pairs[range(chunk)].iter().for_each(|&[f, g]| between(f, g, &mut near));
+        near
+    })?;
+    let (n_chunks, range) = parallel::chunks(input.soup.n_facets(), PAIRS_A_CHUNK);
+    near.extend(course.map(n_chunks, |chunk| {
+        let mut near = Vec::new();
+        let facets = range(chunk).map(|f| f as u32);
+        facets.filter(|&f| !input.is_clean_triangle(f)).for_each(|f| between(f, f, &mut near));
+        near
+    })?);
+    let mut near = near.concat();
     near.sort_unstable();
+    near.dedup();
     Ok(near)
 }
 
