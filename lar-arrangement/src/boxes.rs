@@ -79,15 +79,70 @@ pub(crate) const WIDTH: usize = 8;
 /// No group.
 pub(crate) const NO_GROUP: u32 = u32::MAX;
 
+/// Eight boxes in 32 bits, rounded outwards, side by side: one box is tested against all of them at once. What they
+/// let through is tested again in 64 bits.
+#[derive(Clone, Copy, Debug)]
+struct Block<const D: usize> {
+    lo: [[f32; WIDTH]; D],
+    hi: [[f32; WIDTH]; D],
+}
+
+impl<const D: usize> Block<D> {
+    fn new(boxes: &[Aabb<D>]) -> Self {
+        let mut out = Self { lo: [[f32::INFINITY; WIDTH]; D], hi: [[f32::NEG_INFINITY; WIDTH]; D] };
+        for (i, b) in boxes.iter().enumerate() {
+            for k in 0..D {
+                out.lo[k][i] = below(b.lo[k]);
+                out.hi[k][i] = above(b.hi[k]);
+            }
+        }
+        out
+    }
+
+    /// The boxes, as bits, that meet box i of another block.
+    fn meeting(&self, other: &Self, i: usize) -> u8 {
+        let mut meets = [true; WIDTH];
+        for k in 0..D {
+            let (lo, hi) = (other.lo[k][i], other.hi[k][i]);
+            for (at, meets) in meets.iter_mut().enumerate() {
+                *meets &= (self.lo[k][at] <= hi) & (lo <= self.hi[k][at]);
+            }
+        }
+        meets.iter().enumerate().fold(0, |bits, (at, &meets)| bits | u8::from(meets) << at)
+    }
+}
+
+/// The largest `f32` that is not above x, or a neighbour of it.
+fn below(x: f64) -> f32 {
+    let near = x as f32;
+    if f64::from(near) > x { near.next_down() } else { near }
+}
+
+fn above(x: f64) -> f32 {
+    -below(-x)
+}
+
 /// Boxes in a tree.
 #[derive(Debug)]
 pub(crate) struct BoxTree<const D: usize = 3> {
     /// Item at each leaf.
     items: Vec<u32>,
+    /// The leaves' boxes by blocks of eight.
+    blocks: Vec<Block<D>>,
     /// Level 0 holds the leaves' boxes; a box of level k + 1 encloses eight of level k.
     levels: Vec<Vec<Aabb<D>>>,
     /// The group that everything under a node belongs to, or `NO_GROUP`; empty when there are no groups.
     groups: Vec<Vec<u32>>,
+    /// Marks of each leaf; empty when there are none.
+    marks: Vec<[u32; 3]>,
+}
+
+/// No mark.
+pub(crate) const NO_MARK: u32 = u32::MAX;
+
+fn share_a_mark(a: &[u32; 3], b: &[u32; 3]) -> bool {
+    let is_among = |mark: u32| (mark == a[0]) | (mark == a[1]) | (mark == a[2]);
+    b.iter().fold(false, |share, &mark| share | ((mark != NO_MARK) & is_among(mark)))
 }
 
 impl<const D: usize> BoxTree<D> {
@@ -104,7 +159,8 @@ impl<const D: usize> BoxTree<D> {
             levels
                 .push(below.chunks(WIDTH).map(|c| c.iter().fold(Aabb::EMPTY, |a, b| a.joined(b))).collect());
         }
-        Self { items, levels, groups: Vec::new() }
+        let blocks = levels[0].chunks(WIDTH).map(Block::new).collect();
+        Self { items, blocks, levels, groups: Vec::new(), marks: Vec::new() }
     }
 
     /// The tree with some items in groups: pairs of one group need not be visited, and whole subtrees of them are
@@ -117,6 +173,16 @@ impl<const D: usize> BoxTree<D> {
             self.groups.push(level);
         }
         self
+    }
+
+    /// The tree with marks on its items: those that share one are no pair.
+    pub(crate) fn with_marks(mut self, marks_of: impl Fn(u32) -> [u32; 3]) -> Self {
+        self.marks = self.items.iter().map(|&i| marks_of(i)).collect();
+        self
+    }
+
+    fn are_settled(&self, this: usize, other: usize) -> bool {
+        !self.marks.is_empty() && share_a_mark(&self.marks[this], &self.marks[other])
     }
 
     /// Whether all leaves under a node are of one group.
@@ -217,14 +283,21 @@ impl<const D: usize> BoxTree<D> {
     }
 
     /// Calls `visit` with each pair of items whose boxes meet, one in the block, the other after it in the tree's
-    /// order. Over all blocks every pair comes once, but pairs of one group may be left out.
+    /// order. Over all blocks every pair comes once, but for pairs with a mark in common; pairs of one group may be left
+    /// out.
     pub(crate) fn pairs_of_block(&self, block: usize, mut visit: impl FnMut(u32, u32)) {
         let leaves = &self.levels[0];
         let (from, to) = (block * WIDTH, ((block + 1) * WIDTH).min(leaves.len()));
         let hull = leaves[from..to].iter().fold(Aabb::EMPTY, |a, b| a.joined(b));
         self.leaves(&hull, from, self.group_of_block(block), &mut |other| {
-            for this in from..to.min(other) {
-                if leaves[this].meets(&leaves[other]) {
+            let mut meeting = self.blocks[block].meeting(&self.blocks[other / WIDTH], other % WIDTH);
+            if other < to {
+                meeting &= (1 << (other - from)) - 1;
+            }
+            while meeting != 0 {
+                let this = from + meeting.trailing_zeros() as usize;
+                meeting &= meeting - 1;
+                if !self.are_settled(this, other) && leaves[this].meets(&leaves[other]) {
                     visit(self.items[this], self.items[other]);
                 }
             }
@@ -233,24 +306,11 @@ impl<const D: usize> BoxTree<D> {
 
     /// All pairs of items whose boxes meet, each once, the smaller first. O(n log n + pairs).
     pub(crate) fn pairs(&self, course: &Course) -> Result<Vec<[u32; 2]>, Cancelled> {
-        self.pairs_but(|_, _| false, course)
-    }
-
-    /// The same without those that are `settled`.
-    pub(crate) fn pairs_but(
-        &self,
-        settled: impl Fn(u32, u32) -> bool + Sync,
-        course: &Course,
-    ) -> Result<Vec<[u32; 2]>, Cancelled> {
         let (n_chunks, range) = parallel::chunks(self.n_blocks(), 64);
         let parts = course.map(n_chunks, |chunk| {
             let mut found = Vec::new();
             for block in range(chunk).take_while(|_| !course.is_cancelled()) {
-                self.pairs_of_block(block, |i, j| {
-                    if !settled(i, j) {
-                        found.push([i.min(j), i.max(j)]);
-                    }
-                });
+                self.pairs_of_block(block, |i, j| found.push([i.min(j), i.max(j)]));
             }
             found
         })?;

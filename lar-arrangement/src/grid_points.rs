@@ -66,9 +66,9 @@ fn tag(hash: u64) -> u64 {
 
 /// Coordinates are often multiples of a high power of two: each factor's high bits come down before the next.
 fn hash(point: [i64; 3]) -> u64 {
-    let mixed = point.iter().fold(0u64, |hash, &x| {
-        (hash.rotate_left(32) ^ x as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15)
-    });
+    let mixed = point
+        .iter()
+        .fold(0u64, |hash, &x| (hash.rotate_left(32) ^ x as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15));
     (mixed ^ mixed >> 32).wrapping_mul(0xd6e8_feb8_6659_fd93)
 }
 

@@ -1,7 +1,7 @@
 //! Vertices by definition: different definitions of one point become one vertex, by exact equality.
 
-use crate::kernel::{Geometry, Vertex};
 use crate::grid_points::PointTable;
+use crate::kernel::{Geometry, Vertex};
 use rustc_hash::FxHashMap;
 
 /// All vertices found so far.

@@ -25,6 +25,14 @@ impl Faces<'_> {
         let [a, b] = self.edges[(half_edge / 2) as usize];
         if half_edge.is_multiple_of(2) { [a, b] } else { [b, a] }
     }
+
+    fn loops_of(&self, face: usize) -> std::ops::Range<u32> {
+        self.face_loops[face]..self.face_loops[face + 1]
+    }
+
+    fn half_edges(&self, face: usize) -> impl Iterator<Item = u32> + '_ {
+        self.loops_of(face).flat_map(|l| self.loops[l as usize].iter().copied())
+    }
 }
 
 /// The faces, edges and vertices that remain, in terms of the old ones.
@@ -53,22 +61,32 @@ pub(crate) struct Removal<'a> {
     pub vertices: &'a FxHashMap<u32, [u32; 2]>,
 }
 
-/// Carries the removal out. `positions` are only used to tell a face's outer loop from its holes.
+/// Carries the removal out. `positions` are only used to tell a face's outer loop from its holes. O(n) expected.
 pub(crate) fn merge(faces: &Faces, removal: &Removal, positions: impl Fn(u32) -> [f64; 3]) -> Merged {
     let chains = Chains::new(faces, removal);
-    let by_face = remaining_loops(faces, removal);
+    let mut rejoined = remaining_loops(faces, removal);
     let mut loops = Cells::with_capacity(faces.loops.len(), faces.loops.indices().len());
-    let mut face_loops = vec![0];
+    let mut face_loops = Vec::with_capacity(removal.n_new_faces + 1);
+    face_loops.push(0);
     let mut one_loop = Vec::new();
-    for cycles in by_face {
-        let first = outer_first(&cycles, faces, &positions);
-        let order = first.into_iter().chain((0..cycles.len()).filter(|&i| Some(i) != first));
-        for i in order {
-            one_loop.clear();
-            one_loop.extend(cycles[i].iter().filter_map(|&h| chains.new_half_edge[h as usize]));
-            loops.push(&one_loop);
+    let mut push = |cycle: &[u32]| {
+        let new = cycle.iter().map(|&h| chains.new_half_edge[h as usize]);
+        one_loop.clear();
+        one_loop.extend(new.filter(|&h| h != NONE));
+        loops.push(&one_loop);
+        loops.len() as u32
+    };
+    for old in first_old_faces(removal) {
+        let mut end = face_loops[face_loops.len() - 1];
+        match rejoined.remove(&removal.new_face[old as usize]) {
+            None => faces.loops_of(old as usize).for_each(|l| end = push(&faces.loops[l as usize])),
+            Some(cycles) => {
+                let first = outer_first(&cycles, faces, &positions);
+                let order = first.into_iter().chain((0..cycles.len()).filter(|&i| Some(i) != first));
+                order.for_each(|i| end = push(&cycles[i]));
+            }
         }
-        face_loops.push(loops.len() as u32);
+        face_loops.push(end);
     }
     Merged {
         vertices: chains.vertices,
@@ -78,6 +96,19 @@ pub(crate) fn merge(faces: &Faces, removal: &Removal, positions: impl Fn(u32) ->
         face_loops,
     }
 }
+
+/// The first old face of each new one; new faces are numbered in this order.
+fn first_old_faces(removal: &Removal) -> Vec<u32> {
+    let mut first = vec![NONE; removal.n_new_faces];
+    for (&new, old) in removal.new_face.iter().zip(0..) {
+        let first = &mut first[new as usize];
+        *first = (*first).min(old);
+    }
+    first
+}
+
+/// No half-edge, no face.
+const NONE: u32 = u32::MAX;
 
 /// For candidate vertices: those with exactly two remaining edges, with these edges.
 pub(crate) fn with_two_edges(
@@ -106,61 +137,64 @@ pub(crate) fn with_two_edges(
 pub(crate) fn keep_folds(faces: &Faces, removed: &mut [bool], new_face: &[u32], n_new_faces: usize) -> bool {
     let mut size = vec![0u32; n_new_faces];
     new_face.iter().for_each(|&new| size[new as usize] += 1);
-    let half_edges = |face: usize| {
-        let loops = faces.face_loops[face]..faces.face_loops[face + 1];
-        loops.flat_map(|l| faces.loops[l as usize].iter().copied())
-    };
     let mut kept: Vec<(u32, u32)> = Vec::new();
     for (face, &new) in new_face.iter().enumerate().filter(|(_, new)| size[**new as usize] > 1) {
-        kept.extend(half_edges(face).filter(|h| !removed[(h / 2) as usize]).map(|h| (new, h)));
+        kept.extend(faces.half_edges(face).filter(|h| !removed[(h / 2) as usize]).map(|h| (new, h)));
     }
     kept.sort_unstable();
     let mut folded = vec![false; n_new_faces];
     kept.windows(2).filter(|w| w[0] == w[1]).for_each(|w| folded[w[0].0 as usize] = true);
     for (face, _) in new_face.iter().enumerate().filter(|(_, new)| folded[**new as usize]) {
-        half_edges(face).for_each(|h| removed[(h / 2) as usize] = false);
+        faces.half_edges(face).for_each(|h| removed[(h / 2) as usize] = false);
     }
     folded.contains(&true)
 }
 
-/// The loops of each new face as old half-edges: at a removed edge the walk goes on along the loop on its other
-/// side.
-fn remaining_loops(faces: &Faces, removal: &Removal) -> Vec<Vec<Vec<u32>>> {
+/// The loops, as old half-edges, of each new face that a removed edge bounds or bounded: there the walk goes on along
+/// the loop on its other side.
+fn remaining_loops(faces: &Faces, removal: &Removal) -> FxHashMap<u32, Vec<Vec<u32>>> {
+    let is_removed = |h: u32| removal.edges[(h / 2) as usize];
+    let mut touched: FxHashMap<u32, Vec<Vec<u32>>> = FxHashMap::default();
+    for old in (0..faces.n_faces()).filter(|&old| faces.half_edges(old).any(is_removed)) {
+        touched.entry(removal.new_face[old]).or_default();
+    }
+    if touched.is_empty() {
+        return touched;
+    }
+    let is_touched = |old: &usize| touched.contains_key(&removal.new_face[*old]);
+    let old_faces: Vec<usize> = (0..faces.n_faces()).filter(is_touched).collect();
+    // By places in the list of all half-edges: what follows on each that was not walked, and where removed ones stand.
     let half_edges = faces.loops.indices();
-    let is_removed = |i: u32| removal.edges[(half_edges[i as usize] / 2) as usize];
-    let mut next = vec![0u32; half_edges.len()];
+    let mut next: FxHashMap<u32, u32> = FxHashMap::default();
     let mut at: FxHashMap<u32, u32> = FxHashMap::default();
-    for bounds in faces.loops.offsets().windows(2) {
-        for i in bounds[0]..bounds[1] {
-            next[i as usize] = if i + 1 == bounds[1] { bounds[0] } else { i + 1 };
-            if is_removed(i) {
+    let places = |l: u32| faces.loops.offsets()[l as usize]..faces.loops.offsets()[l as usize + 1];
+    for place in old_faces.iter().flat_map(|&old| faces.loops_of(old)).map(places) {
+        for i in place.clone() {
+            next.insert(i, if i + 1 == place.end { place.start } else { i + 1 });
+            if is_removed(half_edges[i as usize]) {
                 at.insert(half_edges[i as usize], i);
             }
         }
     }
-    let mut seen = vec![false; half_edges.len()];
-    let mut by_face: Vec<Vec<Vec<u32>>> = vec![Vec::new(); removal.n_new_faces];
-    let offsets = faces.loops.offsets();
-    for face in 0..faces.n_faces() {
-        for l in faces.face_loops[face]..faces.face_loops[face + 1] {
-            for start in offsets[l as usize]..offsets[l as usize + 1] {
-                let mut cycle = Vec::new();
-                let mut i = start;
-                while !seen[i as usize] && !is_removed(i) {
-                    seen[i as usize] = true;
-                    cycle.push(half_edges[i as usize]);
-                    i = next[i as usize];
-                    while is_removed(i) {
-                        i = next[at[&(half_edges[i as usize] ^ 1)] as usize];
-                    }
+    for old in old_faces {
+        let cycles = touched.entry(removal.new_face[old]).or_default();
+        for start in faces.loops_of(old).flat_map(places) {
+            let (mut cycle, mut i) = (Vec::new(), start);
+            while !is_removed(half_edges[i as usize])
+                && let Some(mut onward) = next.remove(&i)
+            {
+                cycle.push(half_edges[i as usize]);
+                while is_removed(half_edges[onward as usize]) {
+                    onward = next[&at[&(half_edges[onward as usize] ^ 1)]];
                 }
-                if !cycle.is_empty() {
-                    by_face[removal.new_face[face] as usize].push(cycle);
-                }
+                i = onward;
+            }
+            if !cycle.is_empty() {
+                cycles.push(cycle);
             }
         }
     }
-    by_face
+    touched
 }
 
 /// The outer one of several loops: it reaches farthest in every direction of the plane, so it wins along every
@@ -188,11 +222,18 @@ fn outer_first(cycles: &[Vec<u32>], faces: &Faces, positions: impl Fn(u32) -> [f
     (0..cycles.len()).rev().max_by_key(wins)
 }
 
-/// One new edge: its first old edge, its ends, and the old half-edges from one end to the other.
+/// One new edge: its first old edge, its ends, and the old half-edges from one end to the other when there are more
+/// than that edge.
 struct Chain {
     edge: u32,
     ends: [u32; 2],
     walk: Vec<u32>,
+}
+
+impl Chain {
+    fn single(half_edge: u32, faces: &Faces) -> Self {
+        Self { edge: half_edge / 2, ends: faces.ends(half_edge), walk: Vec::new() }
+    }
 }
 
 /// Edges joined through vertices that disappear.
@@ -200,21 +241,33 @@ struct Chains {
     vertices: Vec<u32>,
     edges: Vec<[u32; 2]>,
     old_half_edge: Vec<u32>,
-    /// The new half-edge that stands for an old one; `None` for removed edges and for all but one of a chain.
-    new_half_edge: Vec<Option<u32>>,
+    /// The new half-edge that stands for an old one; `NONE` for removed edges and for all but one of a chain.
+    new_half_edge: Vec<u32>,
 }
 
 impl Chains {
     fn new(faces: &Faces, removal: &Removal) -> Self {
+        let passes = |v: &u32| removal.vertices.contains_key(v);
+        let is_single =
+            |edge: u32| removal.vertices.is_empty() || !faces.edges[edge as usize].iter().any(passes);
         let mut seen = removal.edges.to_vec();
         let mut chains = Vec::with_capacity(faces.edges.len());
         for edge in 0..faces.edges.len() as u32 {
-            if !seen[edge as usize] {
-                let walk = chain_through(edge, faces, removal.vertices);
-                walk.iter().for_each(|&h| seen[(h / 2) as usize] = true);
-                let ends = [faces.ends(walk[0])[0], faces.ends(*walk.last().expect("not empty"))[1]];
-                chains.push(Chain { edge, ends, walk });
+            if seen[edge as usize] {
+                continue;
             }
+            if is_single(edge) {
+                chains.push(Chain::single(2 * edge, faces));
+                continue;
+            }
+            let walk = chain_through(edge, faces, removal.vertices);
+            walk.iter().for_each(|&h| seen[(h / 2) as usize] = true);
+            let ends = [faces.ends(walk[0])[0], faces.ends(*walk.last().expect("not empty"))[1]];
+            chains.push(if walk.len() == 1 {
+                Chain::single(walk[0], faces)
+            } else {
+                Chain { edge, ends, walk }
+            });
         }
         Self::numbered(&without_doubles(chains, faces), faces)
     }
@@ -231,16 +284,17 @@ impl Chains {
         }
         let mut edges = Vec::with_capacity(chains.len());
         let mut old_half_edge = Vec::with_capacity(chains.len());
-        let mut new_half_edge = vec![None; 2 * faces.edges.len()];
+        let mut new_half_edge = vec![NONE; 2 * faces.edges.len()];
         for (chain, id) in chains.iter().zip(0..) {
             let [a, b] = chain.ends.map(|v| new_vertex[v as usize]);
             edges.push([a.min(b), a.max(b)]);
+            let in_walk = chain.walk.iter().copied().find(|h| h / 2 == chain.edge);
             let along =
-                chain.walk.iter().copied().find(|h| h / 2 == chain.edge).expect("chains hold their edge");
+                in_walk.unwrap_or(2 * chain.edge + u32::from(faces.ends(2 * chain.edge) != chain.ends));
             let forward = if a < b { along } else { along ^ 1 };
             old_half_edge.push(forward);
-            new_half_edge[forward as usize] = Some(2 * id);
-            new_half_edge[(forward ^ 1) as usize] = Some(2 * id + 1);
+            new_half_edge[forward as usize] = 2 * id;
+            new_half_edge[(forward ^ 1) as usize] = 2 * id + 1;
         }
         Self { vertices, edges, old_half_edge, new_half_edge }
     }
@@ -275,7 +329,7 @@ fn chain_through(edge: u32, faces: &Faces, passing: &FxHashMap<u32, [u32; 2]>) -
 fn without_doubles(chains: Vec<Chain>, faces: &Faces) -> Vec<Chain> {
     let key = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
     let mut count: FxHashMap<[u32; 2], u32> = FxHashMap::default();
-    if chains.iter().all(|c| c.walk.len() == 1) {
+    if chains.iter().all(|c| c.walk.is_empty()) {
         return chains;
     }
     for chain in &chains {
@@ -283,14 +337,10 @@ fn without_doubles(chains: Vec<Chain>, faces: &Faces) -> Vec<Chain> {
     }
     let mut out = Vec::with_capacity(chains.len());
     for chain in chains {
-        if chain.walk.len() == 1 || (chain.ends[0] != chain.ends[1] && count[&key(chain.ends)] == 1) {
+        if chain.walk.is_empty() || (chain.ends[0] != chain.ends[1] && count[&key(chain.ends)] == 1) {
             out.push(chain);
         } else {
-            out.extend(chain.walk.into_iter().map(|h| Chain {
-                edge: h / 2,
-                ends: faces.ends(h),
-                walk: vec![h],
-            }));
+            out.extend(chain.walk.into_iter().map(|h| Chain::single(h, faces)));
         }
     }
     out.sort_by_key(|chain| chain.edge);

@@ -152,7 +152,7 @@ impl<'a> Arranger<'a> {
     ///
     /// ```
     /// use lar_arrangement::{Arranger, Progress};
-    /// let cube = lar_core::cuboid_grid(&[1, 1, 1]).to_surface()?;
+    /// let cube = lar_core::cuboid_grid(&[1, 1, 1]).to_surface("cube")?;
     /// let last = std::sync::Mutex::new(0.0);
     /// let report = |progress: Progress| *last.lock().unwrap() = progress.fraction;
     /// Arranger::new().progress(&report).arrange(&[cube])?;
@@ -307,7 +307,7 @@ fn meeting_facets(
     course: &Course,
 ) -> Result<Vec<[u32; 2]>, Cancelled> {
     let tree = BoxTree::new(&facet_boxes(soup, reach));
-    tree.pairs_but(|f, g| stars.settle(&soup.geometry, f, g), course)
+    tree.with_marks(|facet| stars.marks(&soup.geometry, facet)).pairs(course)
 }
 
 fn contacts(soup: &Soup, pairs: &[[u32; 2]], course: &Course) -> Result<Contacts, Cancelled> {

@@ -24,7 +24,7 @@ pub struct Progress {
 ///
 /// ```
 /// use lar_arrangement::{ArrangementError, Arranger, Cancel};
-/// let surface = lar_core::cuboid_grid(&[20, 20, 20]).to_surface()?;
+/// let surface = lar_core::cuboid_grid(&[20, 20, 20]).to_surface("grid")?;
 /// let cancel = Cancel::new();
 /// // Here from within, on the first report; any thread may do it at any time.
 /// let stop = |_| cancel.request();

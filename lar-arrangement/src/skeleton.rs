@@ -144,8 +144,7 @@ impl Builder<'_> {
         }
         let ends = self.soup.edges[edge as usize];
         let direction = self.soup.geometry.direction(Along::Edge(ends));
-        let id =
-            self.push_edge(ends.map(|v| self.compact[v as usize]), direction, self.soup.is_soft(edge));
+        let id = self.push_edge(ends.map(|v| self.compact[v as usize]), direction, self.soup.is_soft(edge));
         self.whole[edge as usize] = id;
         id
     }

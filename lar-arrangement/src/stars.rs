@@ -15,6 +15,7 @@
 //! The test is one of `f64` with a margin for all rounding: where it fails nothing is claimed. The margin also keeps the
 //! outer corners farther apart than points that are nearly one.
 
+use crate::boxes::NO_MARK;
 use crate::half_edges::MANY;
 use crate::kernel::Geometry;
 use crate::parallel;
@@ -59,10 +60,9 @@ impl Stars {
         self.is_clean[p as usize]
     }
 
-    /// Whether two facets share a clean point: then they have no other points in common than shared corners and edges.
-    pub(crate) fn settle(&self, geometry: &Geometry, f: u32, g: u32) -> bool {
-        let others = geometry.base(g);
-        geometry.base(f).into_iter().any(|p| others.contains(&p) && self.is_clean(p))
+    /// The clean corners of a facet. Facets that share one have no other points in common than shared corners and edges.
+    pub(crate) fn marks(&self, geometry: &Geometry, facet: u32) -> [u32; 3] {
+        geometry.base(facet).map(|p| if self.is_clean(p) { p } else { NO_MARK })
     }
 }
 
@@ -107,7 +107,8 @@ fn is_fan(geometry: &Geometry, p: u32, corners: &[u32], distance: f64) -> bool {
     let at = geometry.position(p);
     let length = |v: [f64; 3]| v[0].abs() + v[1].abs() + v[2].abs();
     // Exactly at right angles to w, whatever was rounded there.
-    let m = if 4.0 * (w[0].abs() + w[1].abs()) > w[2].abs() { [-w[1], w[0], 0.0] } else { [0.0, -w[2], w[1]] };
+    let m =
+        if 4.0 * (w[0].abs() + w[1].abs()) > w[2].abs() { [-w[1], w[0], 0.0] } else { [0.0, -w[2], w[1]] };
     let mut passes = 0;
     for &corner in corners {
         let base = geometry.base(corner / 3);

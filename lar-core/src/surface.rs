@@ -64,7 +64,7 @@ impl Surface {
     /// use lar_core::{Cells, Surface, cuboid_grid, icosphere};
     /// let ball = Surface::from_triangles("ball", &icosphere(0));
     /// assert_eq!(ball.triangles().map(<[u32]>::len), Some(60));
-    /// assert_eq!(cuboid_grid(&[1, 1, 1]).to_surface()?.triangles(), None);
+    /// assert_eq!(cuboid_grid(&[1, 1, 1]).to_surface("cube")?.triangles(), None);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]

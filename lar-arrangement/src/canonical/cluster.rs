@@ -219,7 +219,8 @@ impl Search<'_> {
         }
         for facet in 0..self.input.soup.n_facets() as u32 {
             for p in self.input.corners(facet) {
-                let others = at_point.get(&p).into_iter().flatten().filter(|&&id| cluster_of(facet) != Some(id));
+                let others =
+                    at_point.get(&p).into_iter().flatten().filter(|&&id| cluster_of(facet) != Some(id));
                 for &id in others {
                     let cluster = &clusters[id as usize];
                     let near = |&q: &u32| cluster.fit.distance(self.geometry(), q) <= cluster.tolerance;

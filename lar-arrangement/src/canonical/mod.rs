@@ -16,8 +16,8 @@ mod scan;
 mod vector;
 
 use crate::grid_points::PointTable;
-use crate::kernel::Geometry;
 use crate::half_edges::MANY;
+use crate::kernel::Geometry;
 use crate::soup::{Placed, Soup};
 use crate::stars::Stars;
 pub(crate) use scan::Scan;

@@ -3,8 +3,8 @@
 use super::cluster::Cluster;
 use super::vector::distance;
 use super::{Report, carried, renumbered};
-use crate::kernel::{CanonicalPoints, Geometry, Plane, RationalPoint, SharedPlane, Sign, dominant_axis};
 use crate::grid_points::PointTable;
+use crate::kernel::{CanonicalPoints, Geometry, Plane, RationalPoint, SharedPlane, Sign, dominant_axis};
 use crate::soup::{Placed, Soup};
 use rustc_hash::FxHashMap;
 

@@ -46,7 +46,8 @@ impl Scan {
         let shapes = parallel::map(input.soup.n_facets(), |f| Shape::of(input, f as u32));
         let outlines: Vec<Outline> = shapes.iter().map(Outline::of).collect();
         let is_coplanar = |&[f, g]: &[u32; 2]| {
-            !outlines[f as usize].is_across(&outlines[g as usize]) && are_nearly_coplanar(input, &shapes, [f, g])
+            !outlines[f as usize].is_across(&outlines[g as usize])
+                && are_nearly_coplanar(input, &shapes, [f, g])
         };
         let (n_chunks, range) = parallel::chunks(input.pairs.len(), PAIRS_A_CHUNK);
         let mut coplanar = course.map(n_chunks, |chunk| {

@@ -48,10 +48,7 @@ impl std::ops::Add for Approx {
     /// The high parts are added exactly; three roundings of low parts are below 2^-104 of the terms each.
     fn add(self, other: Self) -> Self {
         let terms = self.value.hi.abs() + other.value.hi.abs();
-        Self {
-            value: self.value.sum(other.value),
-            error: self.error + other.error + terms * 2f64.powi(-102),
-        }
+        Self { value: self.value.sum(other.value), error: self.error + other.error + terms * 2f64.powi(-102) }
     }
 }
 
@@ -59,7 +56,7 @@ impl std::ops::Sub for Approx {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
-        self + Self { value: other.value.negated(), ..other }
+        std::ops::Add::add(self, Self { value: other.value.negated(), ..other })
     }
 }
 
@@ -70,7 +67,8 @@ impl std::ops::Mul for Approx {
     /// product.
     fn mul(self, other: Self) -> Self {
         let value = self.value.product(other.value);
-        let from_factors = (self.value.hi.abs() + self.error) * other.error + other.value.hi.abs() * self.error;
+        let from_factors =
+            (self.value.hi.abs() + self.error) * other.error + other.value.hi.abs() * self.error;
         Self { value, error: from_factors + value.hi.abs() * 2f64.powi(-101) + UNDERFLOW }
     }
 }

@@ -233,7 +233,8 @@ impl Geometry {
         let kept = |f: &u32| keep(*f);
         if !self.plane_codes.is_empty() {
             self.plane_codes.resize(self.facets.len(), 0);
-            self.plane_codes = (0..self.facets.len() as u32).filter(kept).map(|f| self.plane_codes[f as usize]).collect();
+            self.plane_codes =
+                (0..self.facets.len() as u32).filter(kept).map(|f| self.plane_codes[f as usize]).collect();
             self.first_on_plane.fill(u32::MAX);
             for (&code, facet) in self.plane_codes.iter().zip(0..) {
                 if let Some(plane) = code.checked_sub(1) {

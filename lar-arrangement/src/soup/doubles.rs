@@ -19,7 +19,9 @@ pub(super) fn of(soup: &Soup) -> Vec<Double> {
     let mut first_with: FxHashMap<[u32; 3], u32> = FxHashMap::default();
     let mut doubles = Vec::new();
     for facet in 0..soup.n_facets() as u32 {
-        let Some(corners) = input_triangle(soup, facet).filter(|_| may_be_double(soup, facet)) else { continue };
+        let Some(corners) = input_triangle(soup, facet).filter(|_| may_be_double(soup, facet)) else {
+            continue;
+        };
         let mut key = corners;
         key.sort_unstable();
         let first = *first_with.entry(key).or_insert(facet);
@@ -34,7 +36,8 @@ pub(super) fn of(soup: &Soup) -> Vec<Double> {
 fn input_triangle(soup: &Soup, facet: u32) -> Option<[u32; 3]> {
     let f = facet as usize;
     let polygon = Some(&soup.facet_polygon[f]);
-    let is_alone = (f == 0 || soup.facet_polygon.get(f - 1) != polygon) && soup.facet_polygon.get(f + 1) != polygon;
+    let is_alone =
+        (f == 0 || soup.facet_polygon.get(f - 1) != polygon) && soup.facet_polygon.get(f + 1) != polygon;
     (is_alone && soup.facet_edges[f].len() == 3).then(|| soup.geometry.base(facet))
 }
 
@@ -79,7 +82,8 @@ pub(super) fn dropped(mut soup: Soup, doubles: &[Double]) -> Soup {
     for (polygon, &(taker, same_way)) in (0..n_polygons as u32).zip(&taker) {
         let sign = if same_way { 1 } else { -1 };
         let of_polygon = soup.polygon_parents(polygon).iter();
-        parents.extend(of_polygon.map(|p| (new_polygon[taker as usize], Parent { sign: sign * p.sign, ..*p })));
+        parents
+            .extend(of_polygon.map(|p| (new_polygon[taker as usize], Parent { sign: sign * p.sign, ..*p })));
     }
     soup.polygon_flat = (0..n_polygons).filter(|&p| stays[p]).map(|p| soup.polygon_flat[p]).collect();
     (soup.parents, soup.parent_offsets) = super::by_polygon(soup.polygon_flat.len(), parents);
