@@ -75,6 +75,11 @@ mod topology;
 mod triangulated;
 mod validate;
 
+/// Dense matrices, in signatures of this crate.
+pub use nalgebra;
+/// Sparse matrices: [`Operator`] is one.
+pub use sprs;
+
 pub use affine::{Affine, AffineError, RotationVector, r, rotation, s, t};
 pub use atomic_write::{FileError, atomic_write};
 pub use cells::Cells;

@@ -22,6 +22,8 @@ pub mod command;
 mod error;
 #[cfg(feature = "viewer")]
 pub mod figures;
+#[cfg(doctest)]
+mod guide;
 mod mesh;
 mod output;
 pub mod plane;
@@ -36,8 +38,3 @@ pub mod three_cubes;
 
 pub use error::CommandError;
 pub use program::main;
-
-/// The programs in the README are compiled and run with the tests.
-#[cfg(doctest)]
-#[doc = include_str!("../../README.md")]
-struct Readme;
