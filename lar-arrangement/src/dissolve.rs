@@ -18,12 +18,26 @@ pub(crate) struct Dissolved {
     pub merged: Merged,
     /// The first of the old faces that make up each new one.
     pub old_face: Vec<u32>,
-    /// New face of each old one.
-    pub new_face: Vec<u32>,
+    /// The new faces around each new edge.
+    pub rings: Cells,
 }
 
-/// Dissolves; copies the skeleton when there is nothing to dissolve.
-pub(crate) fn dissolve(skeleton: &Skeleton, rings: &Cells, soup: &Soup) -> Dissolved {
+/// The skeleton as it is, its loops and edges taken out of it.
+pub(crate) fn unchanged(skeleton: &mut Skeleton, rings: Cells) -> Dissolved {
+    let faces: Vec<u32> = (0..skeleton.n_faces() as u32).collect();
+    let merged = Merged {
+        vertices: (0..skeleton.vertices.len() as u32).collect(),
+        old_half_edge: (0..skeleton.edges.len() as u32).map(|e| 2 * e).collect(),
+        edges: std::mem::take(&mut skeleton.edges),
+        loops: std::mem::take(&mut skeleton.loops),
+        face_loops: std::mem::replace(&mut skeleton.face_loops, vec![0]),
+    };
+    Dissolved { merged, old_face: faces, rings }
+}
+
+/// Dissolves.
+pub(crate) fn dissolve(skeleton: &Skeleton, rings: Cells, soup: &Soup) -> Dissolved {
+    let rings = &rings;
     let mut removed: Vec<bool> =
         (0..skeleton.edges.len()).map(|e| is_dissolvable(e, skeleton, rings, soup)).collect();
     let faces = Faces { edges: &skeleton.edges, loops: &skeleton.loops, face_loops: &skeleton.face_loops };
@@ -54,7 +68,8 @@ pub(crate) fn dissolve(skeleton: &Skeleton, rings: &Cells, soup: &Soup) -> Disso
     let removal =
         Removal { edges: &removed, new_face: &new_face, n_new_faces: n_faces as usize, vertices: &vertices };
     let merged = merge::merge(&faces, &removal, |v| skeleton.vertices[v as usize].at);
-    Dissolved { merged, old_face, new_face }
+    let rings = new_rings(rings, &merged, &new_face);
+    Dissolved { merged, old_face, rings }
 }
 
 fn is_dissolvable(edge: usize, skeleton: &Skeleton, rings: &Cells, soup: &Soup) -> bool {
@@ -77,4 +92,22 @@ fn merged_faces(removed: &[bool], rings: &Cells, n_faces: usize) -> (Vec<u32>, u
         sets.union(ring[0] / 2, ring[1] / 2);
     }
     sets.labels()
+}
+
+/// The rings of the remaining edges in terms of the new faces.
+fn new_rings(rings: &Cells, merged: &Merged, new_face: &[u32]) -> Cells {
+    let mut out = Cells::with_capacity(merged.edges.len(), rings.indices().len());
+    let mut ring = Vec::new();
+    for &h in &merged.old_half_edge {
+        ring.clear();
+        let against = h % 2;
+        let entry = |&old: &u32| 2 * new_face[(old / 2) as usize] + ((old % 2) ^ against);
+        if against == 0 {
+            ring.extend(rings[(h / 2) as usize].iter().map(entry));
+        } else {
+            ring.extend(rings[(h / 2) as usize].iter().rev().map(entry));
+        }
+        out.push(&ring);
+    }
+    out
 }

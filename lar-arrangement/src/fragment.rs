@@ -12,6 +12,8 @@ use crate::progress::{Cancelled, Course};
 use crate::soup::Soup;
 use crate::split::Cuts;
 use crate::subdivision::{Embedding, Subdivision};
+use crate::union_find::UnionFind;
+use lar_core::Cells;
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 
@@ -33,6 +35,51 @@ pub(crate) struct FacetParent {
     pub same_way: bool,
 }
 
+/// The facets that are cut, or whose edges are, by groups that overlap in one plane. All others are faces as they are.
+#[derive(Debug)]
+pub(crate) struct Groups {
+    /// The first facet of each group, ascending.
+    pub leaders: Vec<u32>,
+    /// The facets of each group, ascending.
+    pub members: Cells,
+    /// Whether each facet is in a group.
+    pub is_member: Vec<bool>,
+}
+
+impl Groups {
+    /// From the sets of facets that overlap, and what was found in and on the facets.
+    pub(crate) fn new(soup: &Soup, cuts: &Cuts, mut overlapping: UnionFind) -> Self {
+        let n = soup.n_facets();
+        let mut is_member: Vec<bool> = (0..n)
+            .map(|f| {
+                let is_split = |&code: &u32| !cuts.inner[(code / 2) as usize].is_empty();
+                !cuts.segments(f as u32).is_empty() || soup.facet_edges[f].iter().any(is_split)
+            })
+            .collect();
+        for f in 0..n as u32 {
+            let leader = overlapping.find(f);
+            if leader != f {
+                is_member[f as usize] = true;
+                is_member[leader as usize] = true;
+            }
+        }
+        let members = (0..n as u32).filter(|&f| is_member[f as usize]);
+        let mut led: Vec<(u32, u32)> = members.map(|f| (overlapping.find(f), f)).collect();
+        led.sort_unstable();
+        let mut out = Self { leaders: Vec::new(), members: Cells::new(), is_member };
+        for group in led.chunk_by(|a, b| a.0 == b.0) {
+            out.leaders.push(group[0].0);
+            out.members.push(&group.iter().map(|g| g.1).collect::<Vec<_>>());
+        }
+        out
+    }
+
+    /// Number of groups of several facets.
+    pub(crate) fn n_overlapping(&self) -> u64 {
+        self.members.iter().filter(|group| group.len() > 1).count() as u64
+    }
+}
+
 /// The faces of some facets.
 #[derive(Debug, Default)]
 pub(crate) struct Fragments {
@@ -48,6 +95,8 @@ pub(crate) struct Fragments {
     pub parents: Vec<FacetParent>,
     /// End of each face in `parents`.
     pub parent_ends: Vec<u32>,
+    /// End of each group of facets in `face_ends`.
+    pub group_ends: Vec<u32>,
 }
 
 impl Fragments {
@@ -80,6 +129,7 @@ impl Fragmenter<'_> {
             &[facet] if self.cuts.segments(facet).is_empty() => self.whole(facet, out),
             _ => Local::new(self, group).fragment(out)?,
         }
+        out.group_ends.push(out.face_ends.len() as u32);
         Ok(())
     }
 

@@ -25,12 +25,9 @@ pub(crate) struct Nesting<'a> {
     pub rings: &'a Cells,
     pub shell_of_side: &'a [u32],
     pub n_shells: u32,
-    pub component_of_face: &'a [u32],
-    pub n_components: u32,
+    /// The facets that the faces are pieces of.
+    pub tree: &'a BoxTree,
 }
-
-/// Up to so many rays look at every face: that costs less than a tree.
-const FEW_RAYS: usize = 4;
 
 impl Nesting<'_> {
     /// Cell of each shell; cell 0 is the exterior. Also the number of cells.
@@ -38,12 +35,10 @@ impl Nesting<'_> {
         let n = self.n_shells as usize;
         // Element n stands for the exterior.
         let mut sets = UnionFind::new(n + 1);
-        let edges = self.first_edges();
-        let tree = (edges.len() > FEW_RAYS).then(|| BoxTree::new(&self.boxes()));
-        for edge in edges {
+        for edge in self.first_edges() {
             course.go_on()?;
             let mut here = self.shell_of_side[self.sector(edge) as usize];
-            for face in self.hits(edge, tree.as_ref()) {
+            for face in self.hits(edge) {
                 sets.union(here, self.shell(face, false));
                 here = self.shell(face, true);
             }
@@ -59,21 +54,14 @@ impl Nesting<'_> {
         Ok((labels[..n].iter().map(|&l| cell(l)).collect(), n_cells))
     }
 
-    fn boxes(&self) -> Vec<Aabb> {
-        (0..self.skeleton.n_faces() as u32).map(|f| self.face_box(f)).collect()
-    }
-
-    fn face_box(&self, face: u32) -> Aabb {
-        let tails = self.skeleton.half_edges(face).map(|h| self.skeleton.ends(h)[0]);
-        Aabb::around(tails.map(|v| self.skeleton.vertices[v as usize].at))
-    }
-
     /// One edge of each component.
     fn first_edges(&self) -> Vec<u32> {
-        let mut seen = vec![false; self.n_components as usize];
-        let mut found = Vec::new();
-        for (face, &component) in (0..).zip(self.component_of_face) {
-            if !std::mem::replace(&mut seen[component as usize], true) {
+        let (component_of_shell, n_components) = wrap::components(self.shell_of_side, self.n_shells);
+        let mut seen = vec![false; n_components as usize];
+        let mut found = Vec::with_capacity(n_components as usize);
+        for (face, &shell) in (0..).zip(self.shell_of_side.iter().step_by(2)) {
+            let component = component_of_shell[shell as usize] as usize;
+            if !std::mem::replace(&mut seen[component], true) {
                 let h = self.skeleton.half_edges(face).next().expect("faces have edges");
                 found.push(h / 2);
             }
@@ -82,27 +70,20 @@ impl Nesting<'_> {
     }
 
     /// The faces that the ray from the middle of an edge meets, in their order.
-    fn hits(&self, edge: u32, tree: Option<&BoxTree>) -> Vec<u32> {
+    fn hits(&self, edge: u32) -> Vec<u32> {
         let [a, b] = self.skeleton.edges[edge as usize].map(|v| &self.skeleton.vertices[v as usize]);
         let start = self.geometry.midpoint(a, b);
-        let mut hits = Vec::new();
         // The rounded midpoint may be off by a fraction of a grid step.
         let beam = Aabb {
             lo: [f64::NEG_INFINITY, start.at[1] - 1.0, start.at[2] - 1.0],
             hi: start.at.map(|x| x + 1.0),
         };
-        let mut visit = |face| {
-            if self.is_hit(face, &start) {
-                hits.push(face);
-            }
-        };
-        match tree {
-            Some(tree) => tree.query(&beam, visit),
-            None => {
-                let faces = 0..self.skeleton.n_faces() as u32;
-                faces.filter(|&f| self.face_box(f).meets(&beam)).for_each(&mut visit);
-            }
-        }
+        let mut hits = Vec::new();
+        self.tree.query(&beam, |facet| hits.extend(self.skeleton.faces_of_facet[facet as usize].clone()));
+        // Facets that overlap in one plane share their faces.
+        hits.sort_unstable();
+        hits.dedup();
+        hits.retain(|&face| self.is_hit(face, &start));
         hits.sort_by(|&f, &g| {
             let facets = [f, g].map(|face| self.skeleton.facet(face));
             self.geometry.cmp_hits(&start, facets).then_with(|| f.cmp(&g))

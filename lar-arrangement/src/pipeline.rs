@@ -8,7 +8,7 @@ use crate::coplanar;
 use crate::crossing::{self, Contacts, Scratch};
 use crate::dissolve::{self, Dissolved};
 use crate::error::ArrangementError;
-use crate::fragment::{Fragmenter, Fragments};
+use crate::fragment::{Fragmenter, Fragments, Groups};
 use crate::interner::Interner;
 use crate::merge::Merged;
 use crate::nest::Nesting;
@@ -28,7 +28,7 @@ use std::num::NonZeroUsize;
 /// Pairs of facets a chunk of work.
 const PAIRS_A_CHUNK: usize = 2048;
 /// Groups of facets a chunk of work.
-const GROUPS_A_CHUNK: usize = 256;
+const GROUPS_A_CHUNK: usize = 64;
 
 /// The stages, and their usual shares in the time.
 const PLAN: &Plan = &[
@@ -185,41 +185,44 @@ impl<'a> Arranger<'a> {
     fn run(&self, surfaces: &[Surface]) -> Result<Arrangement, ArrangementError> {
         let mut stats = Stats::default();
         let course = Course::new(self.control, PLAN);
-        let (mut soup, pairs) = self.soup_and_pairs(surfaces, &mut stats, &course)?;
+        let (mut soup, meeting) = self.soup_and_pairs(surfaces, &mut stats, &course)?;
         course.begin("contacts", &mut stats)?;
-        let mut contacts = contacts(&soup, &pairs, &course)?;
-        stats.pairs_tested = pairs.len() as u64;
+        let mut contacts = contacts(&soup, &meeting.pairs, &course)?;
+        stats.pairs_tested = meeting.pairs.len() as u64;
         stats.pairs_crossing = contacts.crossing_pairs;
-        let groups = groups(&soup, &mut contacts, &course)?;
+        let overlapping = overlapping(&soup, &mut contacts, &course)?;
         let mut interner = Interner::new(&soup.geometry, std::mem::take(&mut soup.point_ids));
         let cuts = Cuts::new(&soup, contacts, &mut interner);
+        let groups = Groups::new(&soup, &cuts, overlapping);
         self.check(|| check::cuts(&soup, &cuts, &interner.vertices))?;
-        stats.coplanar_groups = groups.iter().filter(|g| g.len() > 1).count() as u64;
+        stats.coplanar_groups = groups.n_overlapping();
         course.begin("fragmentation", &mut stats)?;
         let fragments = fragments(&soup, &cuts, &interner, &groups, &course)?;
         course.begin("congruence", &mut stats)?;
-        let skeleton = Skeleton::new(fragments, interner, &soup, &cuts);
+        let mut skeleton = Skeleton::new(fragments, &groups, interner, &soup, &cuts);
         self.check(|| check::skeleton(&skeleton, &soup.geometry))?;
         course.begin("gift wrapping", &mut stats)?;
         let rings = wrap::rings(&skeleton, &soup.geometry);
         let (shell_of_side, n_shells) = wrap::shells(&rings, skeleton.n_faces());
         self.check(|| check::shells(&skeleton, &shell_of_side))?;
         course.begin("nesting", &mut stats)?;
-        let (component_of_face, n_components) = wrap::components(&rings, skeleton.n_faces());
         let nesting = Nesting {
             skeleton: &skeleton,
             geometry: &soup.geometry,
             rings: &rings,
             shell_of_side: &shell_of_side,
             n_shells,
-            component_of_face: &component_of_face,
-            n_components,
+            tree: &meeting.tree,
         };
         let (cell_of_shell, n_cells) = nesting.cells(&course)?;
         course.begin("membership", &mut stats)?;
-        let dissolved = dissolve::dissolve(&skeleton, &rings, &soup);
+        let dissolved = if skeleton.soft.contains(&true) {
+            dissolve::dissolve(&skeleton, rings, &soup)
+        } else {
+            dissolve::unchanged(&mut skeleton, rings)
+        };
         let shells = Shells { of_side: &shell_of_side, n: n_shells, cell_of: &cell_of_shell, n_cells };
-        let out = assemble(surfaces, soup, &skeleton, &rings, dissolved, &shells, (stats, &course))?;
+        let out = assemble(surfaces, soup, skeleton, dissolved, &shells, (stats, &course))?;
         self.check(|| check::arrangement(&out))?;
         Ok(out)
     }
@@ -230,7 +233,7 @@ impl<'a> Arranger<'a> {
         surfaces: &[Surface],
         stats: &mut Stats,
         course: &Course,
-    ) -> Result<(Soup, Vec<[u32; 2]>), ArrangementError> {
+    ) -> Result<(Soup, Meeting), ArrangementError> {
         course.begin("soup", stats)?;
         let placed = Placed::snapped(surfaces, |surface, size| self.error(surface, size))?;
         let reach = match self.planes {
@@ -240,31 +243,26 @@ impl<'a> Arranger<'a> {
         let distance = placed.tolerances.iter().map(|t| t.points()).fold(0.0, f64::max);
         let mut soup = Soup::new(surfaces, placed);
         course.begin("pairs", stats)?;
-        let mut stars = Stars::new(&soup, distance);
-        let mut pairs = meeting_facets(&soup, &stars, reach, course)?;
+        let mut meeting = Meeting::new(&soup, distance, reach, course)?;
         if self.planes == Planes::AsGiven {
-            return Ok((soup, pairs));
+            return Ok((soup, meeting));
         }
         course.begin("planes", stats)?;
         let mut report = Report::default();
-        let input = Input { soup: &soup, pairs: &pairs, stars: &stars };
-        let mut scan = Scan::new(&input, course)?;
-        if let Some(placed) = canonical::merged_points(&input, &scan, &mut report) {
+        let mut scan = Scan::new(&meeting.input(&soup), course)?;
+        if let Some(placed) = canonical::merged_points(&meeting.input(&soup), &scan, &mut report) {
             soup = Soup::new(surfaces, placed);
-            stars = Stars::new(&soup, distance);
-            pairs = meeting_facets(&soup, &stars, reach, course)?;
-            scan = Scan::new(&Input { soup: &soup, pairs: &pairs, stars: &stars }, course)?;
+            meeting = Meeting::new(&soup, distance, reach, course)?;
+            scan = Scan::new(&meeting.input(&soup), course)?;
         }
-        let input = Input { soup: &soup, pairs: &pairs, stars: &stars };
-        if let Some(placed) = canonical::on_planes(&input, &scan, &mut report) {
+        if let Some(placed) = canonical::on_planes(&meeting.input(&soup), &scan, &mut report) {
             soup = Soup::new(surfaces, placed);
-            stars = Stars::new(&soup, distance);
-            pairs = meeting_facets(&soup, &stars, 0.0, course)?;
+            meeting = Meeting::new(&soup, distance, 0.0, course)?;
         }
         stats.canonical_planes = report.planes;
         stats.moved_points = report.moved;
         stats.farthest_move = report.farthest * soup.grid.step();
-        Ok((soup, pairs))
+        Ok((soup, meeting))
     }
 
     /// By what length a coordinate of some magnitude may be off because of where it comes from.
@@ -299,15 +297,26 @@ fn facet_boxes(soup: &Soup, reach: f64) -> Vec<Aabb> {
         .collect()
 }
 
-/// The pairs of facets whose boxes, larger by `reach`, meet, without those that a clean point settles.
-fn meeting_facets(
-    soup: &Soup,
-    stars: &Stars,
-    reach: f64,
-    course: &Course,
-) -> Result<Vec<[u32; 2]>, Cancelled> {
-    let tree = BoxTree::new(&facet_boxes(soup, reach));
-    tree.with_marks(|facet| stars.marks(&soup.geometry, facet)).pairs(course)
+/// Which facets may have something in common.
+struct Meeting {
+    tree: BoxTree,
+    stars: Stars,
+    /// Those whose boxes meet, without those that a clean point settles.
+    pairs: Vec<[u32; 2]>,
+}
+
+impl Meeting {
+    /// Boxes are larger by `reach`; `distance` is that of points that are nearly one.
+    fn new(soup: &Soup, distance: f64, reach: f64, course: &Course) -> Result<Self, Cancelled> {
+        let stars = Stars::new(soup, distance);
+        let tree = BoxTree::new(&facet_boxes(soup, reach)).with_marks(|f| stars.marks(&soup.geometry, f));
+        let pairs = tree.pairs(course)?;
+        Ok(Self { tree, stars, pairs })
+    }
+
+    fn input<'a>(&'a self, soup: &'a Soup) -> Input<'a> {
+        Input { soup, pairs: &self.pairs, stars: &self.stars }
+    }
 }
 
 fn contacts(soup: &Soup, pairs: &[[u32; 2]], course: &Course) -> Result<Contacts, Cancelled> {
@@ -326,8 +335,8 @@ fn contacts(soup: &Soup, pairs: &[[u32; 2]], course: &Course) -> Result<Contacts
     }))
 }
 
-/// Facets by groups that overlap in one plane, in the order of their first facets.
-fn groups(soup: &Soup, contacts: &mut Contacts, course: &Course) -> Result<Vec<Vec<u32>>, Cancelled> {
+/// The sets of facets that overlap in one plane.
+fn overlapping(soup: &Soup, contacts: &mut Contacts, course: &Course) -> Result<UnionFind, Cancelled> {
     let mut sets = UnionFind::new(soup.n_facets());
     for pair in std::mem::take(&mut contacts.coplanar) {
         course.go_on()?;
@@ -335,27 +344,22 @@ fn groups(soup: &Soup, contacts: &mut Contacts, course: &Course) -> Result<Vec<V
             sets.union(pair[0], pair[1]);
         }
     }
-    let (labels, n) = sets.labels();
-    let mut groups = vec![Vec::new(); n as usize];
-    for (&label, facet) in labels.iter().zip(0..) {
-        groups[label as usize].push(facet);
-    }
-    Ok(groups)
+    Ok(sets)
 }
 
 fn fragments(
     soup: &Soup,
     cuts: &Cuts,
     interner: &Interner,
-    groups: &[Vec<u32>],
+    groups: &Groups,
     course: &Course,
 ) -> Result<Vec<Fragments>, Cancelled> {
     let fragmenter = Fragmenter { soup, cuts, vertices: &interner.vertices, course: course.quiet() };
-    let (n_chunks, range) = parallel::chunks(groups.len(), GROUPS_A_CHUNK);
+    let (n_chunks, range) = parallel::chunks(groups.members.len(), GROUPS_A_CHUNK);
     course.map(n_chunks, |chunk| {
         let mut out = Fragments::default();
         // Groups after one that was cancelled change nothing: the whole stage is.
-        let _ = groups[range(chunk)].iter().try_for_each(|group| fragmenter.fragment(group, &mut out));
+        let _ = range(chunk).try_for_each(|group| fragmenter.fragment(&groups.members[group], &mut out));
         out
     })
 }
@@ -371,8 +375,7 @@ struct Shells<'a> {
 fn assemble(
     surfaces: &[Surface],
     mut soup: Soup,
-    skeleton: &Skeleton,
-    rings: &Cells,
+    skeleton: Skeleton,
     dissolved: Dissolved,
     shells: &Shells,
     (mut stats, course): (Stats, &Course),
@@ -384,7 +387,7 @@ fn assemble(
         .collect();
     let cells_of_face: Vec<[u32; 2]> =
         shells_of_face.iter().map(|s| s.map(|shell| shells.cell_of[shell as usize])).collect();
-    let (parents, parent_offsets) = parents(&soup, skeleton, &dissolved);
+    let (parents, parent_offsets) = parents(&soup, &skeleton, &dissolved);
     let coefficients = std::mem::take(&mut soup.coefficients);
     let mut jumps = Jumps::new();
     for range in parent_offsets.windows(2) {
@@ -396,7 +399,11 @@ fn assemble(
     course.begin("complex", &mut stats)?;
     let plane_of_face = dissolved.old_face.iter().map(|&f| soup.plane_class(skeleton.facet(f))).collect();
     let facet_of_face = dissolved.old_face.iter().map(|&f| skeleton.facet(f)).collect();
-    let vertices: Vec<_> = dissolved.merged.vertices.iter().map(|&v| skeleton.vertices[v as usize]).collect();
+    let vertices = if dissolved.merged.vertices.len() == skeleton.vertices.len() {
+        skeleton.vertices
+    } else {
+        dissolved.merged.vertices.iter().map(|&v| skeleton.vertices[v as usize]).collect()
+    };
     let complex = ChainComplex::new(
         positions(&soup, &vertices),
         vec![
@@ -405,7 +412,6 @@ fn assemble(
             boundary_3(&cells_of_face, shells.n_cells as usize),
         ],
     );
-    let rings = new_rings(rings, &dissolved);
     course.finish(&mut stats);
     stats.grid_step = soup.grid.step();
     stats.facets = soup.n_facets() as u64;
@@ -416,7 +422,7 @@ fn assemble(
         complex,
         loops: dissolved.merged.loops,
         face_loops: dissolved.merged.face_loops,
-        rings,
+        rings: dissolved.rings,
         cells_of_face,
         shells_of_face,
         n_shells: shells.n,
@@ -508,22 +514,4 @@ fn boundary_3(cells_of_face: &[[u32; 2]], n_cells: usize) -> lar_core::Operator 
         }
     }
     ChainComplex::operator_from_columns(cells_of_face.len(), Cells::from_parts(offsets, faces), signs)
-}
-
-/// The rings of the remaining edges in terms of the new faces.
-fn new_rings(rings: &Cells, dissolved: &Dissolved) -> Cells {
-    let mut out = Cells::with_capacity(dissolved.merged.edges.len(), rings.indices().len());
-    let mut ring = Vec::new();
-    for &h in &dissolved.merged.old_half_edge {
-        ring.clear();
-        let against = h % 2;
-        let entry = |&old: &u32| 2 * dissolved.new_face[(old / 2) as usize] + ((old % 2) ^ against);
-        if against == 0 {
-            ring.extend(rings[(h / 2) as usize].iter().map(entry));
-        } else {
-            ring.extend(rings[(h / 2) as usize].iter().rev().map(entry));
-        }
-        out.push(&ring);
-    }
-    out
 }

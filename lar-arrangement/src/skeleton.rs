@@ -3,13 +3,14 @@
 //!
 //! Holds afterwards: vertices are pairwise distinct points, edges pairwise distinct, ∂1∂2 = 0.
 
-use crate::fragment::{FacetParent, Fragments, Piece, WHOLE};
+use crate::fragment::{FacetParent, Fragments, Groups, Piece, WHOLE};
 use crate::interner::Interner;
-use crate::kernel::{Along, Direction, Vertex};
+use crate::kernel::{Along, Direction, Geometry, Vertex, VertexDef};
 use crate::soup::Soup;
 use crate::split::Cuts;
 use lar_core::Cells;
 use rustc_hash::FxHashMap;
+use std::ops::Range;
 
 /// Vertices, edges and faces of the arrangement; no 3-cells yet.
 #[derive(Debug, Default)]
@@ -17,8 +18,10 @@ pub(crate) struct Skeleton {
     pub vertices: Vec<Vertex>,
     /// Ends of each edge, the smaller first.
     pub edges: Vec<[u32; 2]>,
-    /// Direction of each edge from the smaller end to the larger.
-    pub directions: Vec<Direction>,
+    /// Directions of the edges that do not end at two input points, from the smaller end to the larger.
+    directions: Vec<Direction>,
+    /// Which of these each edge has, or `NOT_SEEN`.
+    direction_of: Vec<u32>,
     /// Whether an edge is only a diagonal inside a polygon.
     pub soft: Vec<bool>,
     /// Half-edges (2 · edge, + 1 against its direction) of each loop, the face on their left.
@@ -28,12 +31,15 @@ pub(crate) struct Skeleton {
     pub parents: Vec<FacetParent>,
     /// The parents of face f are `parent_offsets[f]..parent_offsets[f + 1]`.
     pub parent_offsets: Vec<u32>,
+    /// The faces that the group of each facet became.
+    pub faces_of_facet: Vec<Range<u32>>,
 }
 
 impl Skeleton {
-    /// Unifies what the facets found independently. O(n) expected.
+    /// Unifies what the facets found independently; facets that nothing touches are faces as they are. O(n) expected.
     pub(crate) fn new(
         mut fragments: Vec<Fragments>,
+        groups: &Groups,
         mut interner: Interner,
         soup: &Soup,
         cuts: &Cuts,
@@ -45,14 +51,16 @@ impl Skeleton {
                 piece.ends = piece.ends.map(|v| if v < n_base { v } else { ids[(v - n_base) as usize] });
             }
         }
-        let (vertices, compact) = used_vertices(&fragments, &interner, soup);
-        let n_half_edges = fragments.iter().map(|part| part.half_edges.len()).sum();
-        let n_loops = fragments.iter().map(|part| part.loop_ends.len()).sum();
+        let (vertices, compact) = used_vertices(&fragments, groups, interner, soup);
+        let n_cut: usize = fragments.iter().map(|part| part.half_edges.len()).sum();
+        let n_loops: usize = fragments.iter().map(|part| part.loop_ends.len()).sum();
+        let (n_facets, n_half_edges) = (soup.n_facets(), soup.facet_edges.indices().len());
         let out = Self {
             vertices,
-            loops: Cells::with_capacity(n_loops, n_half_edges),
+            loops: Cells::with_capacity(n_loops + n_facets, n_cut + n_half_edges),
             face_loops: vec![0],
             parent_offsets: vec![0],
+            faces_of_facet: vec![0..0; n_facets],
             ..Self::default()
         };
         let whole = vec![NOT_SEEN; soup.edges.len()];
@@ -61,8 +69,22 @@ impl Skeleton {
         let between_points = pieces.filter(|ends| ends.iter().all(|&v| v < n_points));
         let input_edges = soup.edges_between(between_points.map(|[a, b]| [a.min(b), a.max(b)]));
         let ids = FxHashMap::default();
-        let mut builder = Builder { out, soup, cuts, compact, whole, input_edges, ids };
-        fragments.iter().for_each(|part| builder.push(part));
+        let mut builder = Builder { out, soup, cuts, compact, whole, input_edges, ids, done: 0, one_loop: Vec::new() };
+        let mut next = 0;
+        for part in &fragments {
+            let mut of_piece = vec![NOT_SEEN; part.pieces.len()];
+            for group in 0..part.group_ends.len() {
+                let leader = groups.leaders[next];
+                builder.push_untouched(groups, leader);
+                let first = builder.out.n_faces() as u32;
+                builder.push_group(part, group, &mut of_piece);
+                let faces = first..builder.out.n_faces() as u32;
+                let members = groups.members[next].iter();
+                members.for_each(|&f| builder.out.faces_of_facet[f as usize] = faces.clone());
+                next += 1;
+            }
+        }
+        builder.push_untouched(groups, n_facets as u32);
         builder.out
     }
 
@@ -86,6 +108,15 @@ impl Skeleton {
         self.parents[self.parent_offsets[face as usize] as usize].facet
     }
 
+    /// Direction of an edge from its smaller end to its larger.
+    pub(crate) fn direction(&self, edge: u32, geometry: &Geometry) -> Direction {
+        let ends = self.edges[edge as usize].map(|v| self.vertices[v as usize].def);
+        match (self.direction_of[edge as usize], ends) {
+            (NOT_SEEN, [VertexDef::Point(p), VertexDef::Point(q)]) => geometry.direction(Along::Edge([p, q])),
+            (at, _) => self.directions[at as usize],
+        }
+    }
+
     /// First and last vertex of a half-edge.
     pub(crate) fn ends(&self, half_edge: u32) -> [u32; 2] {
         let [a, b] = self.edges[(half_edge / 2) as usize];
@@ -107,33 +138,69 @@ struct Builder<'a> {
     input_edges: FxHashMap<[u32; 2], u32>,
     /// Edges that are pieces, by their ends.
     ids: FxHashMap<[u32; 2], u32>,
+    /// Facets before this one are done.
+    done: u32,
+    one_loop: Vec<u32>,
 }
 
 impl Builder<'_> {
-    fn push(&mut self, part: &Fragments) {
-        let mut of_piece = vec![NOT_SEEN; part.pieces.len()];
-        let (loop_base, parent_base) = (self.out.loops.len() as u32, self.out.parents.len() as u32);
-        let mut one_loop = Vec::new();
-        let mut begin = 0;
-        for &end in &part.loop_ends {
-            one_loop.clear();
-            for &h in &part.half_edges[begin..end as usize] {
-                one_loop.push(if h & WHOLE != 0 {
-                    2 * self.whole_edge((h ^ WHOLE) / 2) + h % 2
-                } else {
-                    let at = (h / 2) as usize;
-                    if of_piece[at] == NOT_SEEN {
-                        of_piece[at] = self.half_edge(&part.pieces[at]);
-                    }
-                    of_piece[at] ^ (h % 2)
-                });
+    /// The facets before `leader` that are in no group, each a face as it is.
+    fn push_untouched(&mut self, groups: &Groups, leader: u32) {
+        let soup = self.soup;
+        for facet in (self.done..leader).filter(|&f| !groups.is_member[f as usize]) {
+            let mut first = None;
+            for &code in &soup.facet_edges[facet as usize] {
+                let [tail, head] = soup.directed(code);
+                first.get_or_insert(tail);
+                let half_edge = 2 * self.whole_edge(code / 2) + code % 2;
+                self.one_loop.push(half_edge);
+                if first == Some(head) {
+                    self.close_loop();
+                    first = None;
+                }
             }
-            self.out.loops.push(&one_loop);
-            begin = end as usize;
+            let face = self.out.n_faces() as u32;
+            self.out.faces_of_facet[facet as usize] = face..face + 1;
+            self.close_face(&[FacetParent { facet, same_way: true }]);
         }
-        self.out.face_loops.extend(part.face_ends.iter().map(|&end| loop_base + end));
-        self.out.parents.extend_from_slice(&part.parents);
-        self.out.parent_offsets.extend(part.parent_ends.iter().map(|&end| parent_base + end));
+        self.done = leader;
+    }
+
+    /// The faces of a group, given the half-edges of the part's pieces as far as they are known.
+    fn push_group(&mut self, part: &Fragments, group: usize, of_piece: &mut [u32]) {
+        let begin = |ends: &[u32], i: usize| if i == 0 { 0 } else { ends[i - 1] as usize };
+        for face in begin(&part.group_ends, group)..part.group_ends[group] as usize {
+            for l in begin(&part.face_ends, face)..part.face_ends[face] as usize {
+                for &h in &part.half_edges[begin(&part.loop_ends, l)..part.loop_ends[l] as usize] {
+                    let half_edge = match h & WHOLE {
+                        0 => self.of_piece(part, h, of_piece),
+                        _ => 2 * self.whole_edge((h ^ WHOLE) / 2) + h % 2,
+                    };
+                    self.one_loop.push(half_edge);
+                }
+                self.close_loop();
+            }
+            self.close_face(&part.parents[begin(&part.parent_ends, face)..part.parent_ends[face] as usize]);
+        }
+    }
+
+    fn of_piece(&mut self, part: &Fragments, h: u32, of_piece: &mut [u32]) -> u32 {
+        let at = (h / 2) as usize;
+        if of_piece[at] == NOT_SEEN {
+            of_piece[at] = self.half_edge(&part.pieces[at]);
+        }
+        of_piece[at] ^ (h % 2)
+    }
+
+    fn close_loop(&mut self) {
+        self.out.loops.push(&self.one_loop);
+        self.one_loop.clear();
+    }
+
+    fn close_face(&mut self, parents: &[FacetParent]) {
+        self.out.face_loops.push(self.out.loops.len() as u32);
+        self.out.parents.extend_from_slice(parents);
+        self.out.parent_offsets.push(self.out.parents.len() as u32);
     }
 
     /// The edge that an input edge without inner points is. Its ends ascend, and so do their new numbers.
@@ -143,8 +210,7 @@ impl Builder<'_> {
             return known;
         }
         let ends = self.soup.edges[edge as usize];
-        let direction = self.soup.geometry.direction(Along::Edge(ends));
-        let id = self.push_edge(ends.map(|v| self.compact[v as usize]), direction, self.soup.is_soft(edge));
+        let id = self.push_edge(ends.map(|v| self.compact[v as usize]), self.soup.is_soft(edge));
         self.whole[edge as usize] = id;
         id
     }
@@ -158,8 +224,9 @@ impl Builder<'_> {
             (Some(edge), _) => self.whole_edge(edge),
             (None, Some(&id)) => id,
             (None, None) => {
-                let direction = if a < b { piece.direction } else { piece.direction.opposite() };
-                let id = self.push_edge(ends.map(|v| self.compact[v as usize]), direction, true);
+                let id = self.push_edge(ends.map(|v| self.compact[v as usize]), true);
+                self.out.direction_of[id as usize] = self.out.directions.len() as u32;
+                self.out.directions.push(if a < b { piece.direction } else { piece.direction.opposite() });
                 self.ids.insert(ends, id);
                 id
             }
@@ -168,16 +235,21 @@ impl Builder<'_> {
         2 * id + u32::from(a > b)
     }
 
-    fn push_edge(&mut self, ends: [u32; 2], direction: Direction, soft: bool) -> u32 {
+    fn push_edge(&mut self, ends: [u32; 2], soft: bool) -> u32 {
         self.out.edges.push(ends);
-        self.out.directions.push(direction);
+        self.out.direction_of.push(NOT_SEEN);
         self.out.soft.push(soft);
         self.out.edges.len() as u32 - 1
     }
 }
 
 /// The vertices that edges end at, in their order, and the new number of each (only those of used ones count).
-fn used_vertices(fragments: &[Fragments], interner: &Interner, soup: &Soup) -> (Vec<Vertex>, Vec<u32>) {
+fn used_vertices(
+    fragments: &[Fragments],
+    groups: &Groups,
+    interner: Interner,
+    soup: &Soup,
+) -> (Vec<Vertex>, Vec<u32>) {
     let mut used = vec![false; interner.vertices.len()];
     for part in fragments {
         part.pieces.iter().for_each(|piece| piece.ends.iter().for_each(|&v| used[v as usize] = true));
@@ -185,17 +257,19 @@ fn used_vertices(fragments: &[Fragments], interner: &Interner, soup: &Soup) -> (
             used[soup.directed(h ^ WHOLE)[0] as usize] = true;
         }
     }
-    let mut vertices = Vec::new();
-    let compact = used
-        .iter()
-        .zip(&interner.vertices)
-        .map(|(&used, vertex)| {
-            let id = vertices.len() as u32;
-            if used {
-                vertices.push(*vertex);
-            }
-            id
-        })
-        .collect();
+    for (edges, _) in soup.facet_edges.iter().zip(&groups.is_member).filter(|(_, is_member)| !**is_member) {
+        edges.iter().for_each(|&code| used[soup.directed(code)[0] as usize] = true);
+    }
+    let mut n = 0;
+    let number = |&used: &bool| {
+        n += u32::from(used);
+        n - u32::from(used)
+    };
+    let compact = used.iter().map(number).collect();
+    let mut vertices = interner.vertices;
+    if n as usize != vertices.len() {
+        let mut is_used = used.iter();
+        vertices.retain(|_| is_used.next() == Some(&true));
+    }
     (vertices, compact)
 }

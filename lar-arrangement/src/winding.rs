@@ -83,8 +83,13 @@ impl Windings {
         let tree = spanning_tree(n_cells, cells_of_face);
         let mut closure = vec![Closure::Closed; n_solids];
         let mut windings = propagate(n_cells, &tree, jumps, |j| j.signed);
-        for (cells, jumps) in cells_of_face.iter().zip(jumps.iter()) {
-            check_face(&windings, *cells, jumps, |j| j.signed, |a| a, &mut closure, Closure::Unoriented);
+        let mut before = None;
+        for face in cells_of_face.iter().zip(jumps.iter()) {
+            // Faces of one mesh between the same two cells follow each other, and say the same.
+            if before.replace(face) != Some(face) {
+                let (cells, jumps) = face;
+                check_face(&windings, *cells, jumps, |j| j.signed, |a| a, &mut closure, Closure::Unoriented);
+            }
         }
         if closure.contains(&Closure::Unoriented) {
             let odd = |j: &Jump| i32::from(j.odd && closure[j.solid as usize] == Closure::Unoriented);

@@ -88,7 +88,7 @@ pub(crate) fn turn(a: u32, b: u32, edge: u32, skeleton: &Skeleton, geometry: &Ge
     if f == g {
         return Sign::Zero;
     }
-    let sign = geometry.turn_about(f, g, &skeleton.directions[edge as usize]);
+    let sign = geometry.turn_about(f, g, &skeleton.direction(edge, geometry));
     if (a ^ b).is_multiple_of(2) { sign } else { -sign }
 }
 
@@ -110,13 +110,12 @@ pub(crate) fn shells(rings: &Cells, n_faces: usize) -> (Vec<u32>, u32) {
     sides.labels()
 }
 
-/// Component of each face: faces are connected through common edges.
-pub(crate) fn components(rings: &Cells, n_faces: usize) -> (Vec<u32>, u32) {
-    let mut faces = UnionFind::new(n_faces);
-    for ring in rings.iter() {
-        for pair in ring.windows(2) {
-            faces.union(pair[0] / 2, pair[1] / 2);
-        }
+/// Component of each shell, and their number. Faces that share an edge share a shell, so components of faces connected
+/// through edges are those of shells connected through faces.
+pub(crate) fn components(shell_of_side: &[u32], n_shells: u32) -> (Vec<u32>, u32) {
+    let mut shells = UnionFind::new(n_shells as usize);
+    for sides in shell_of_side.as_chunks::<2>().0 {
+        shells.union(sides[0], sides[1]);
     }
-    faces.labels()
+    shells.labels()
 }
