@@ -8,6 +8,7 @@ use crate::boxes::{Aabb, BoxTree};
 use crate::crossing::segment_direction;
 use crate::interner::Interner;
 use crate::kernel::{Along, Direction, Geometry, Sign, Support, Vertex};
+use crate::parallel;
 use crate::progress::{Cancelled, Course};
 use crate::soup::Soup;
 use crate::split::Cuts;
@@ -50,12 +51,10 @@ impl Groups {
     /// From the sets of facets that overlap, and what was found in and on the facets.
     pub(crate) fn new(soup: &Soup, cuts: &Cuts, mut overlapping: UnionFind) -> Self {
         let n = soup.n_facets();
-        let mut is_member: Vec<bool> = (0..n)
-            .map(|f| {
-                let is_split = |&code: &u32| !cuts.inner[(code / 2) as usize].is_empty();
-                !cuts.segments(f as u32).is_empty() || soup.facet_edges[f].iter().any(is_split)
-            })
-            .collect();
+        let mut is_member = parallel::map(n, |f| {
+            let is_split = |&code: &u32| !cuts.inner[(code / 2) as usize].is_empty();
+            !cuts.segments(f as u32).is_empty() || soup.facet_edges[f].iter().any(is_split)
+        });
         for f in 0..n as u32 {
             let leader = overlapping.find(f);
             if leader != f {

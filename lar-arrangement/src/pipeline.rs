@@ -287,14 +287,11 @@ impl<'a> Arranger<'a> {
 
 /// The boxes of the facets, larger by `reach` on all sides.
 fn facet_boxes(soup: &Soup, reach: f64) -> Vec<Aabb> {
-    soup.facet_edges
-        .iter()
-        .map(|edges| {
-            let corners = edges.iter().map(|&e| soup.geometry.position(soup.directed(e)[0]));
-            let tight = Aabb::around(corners);
-            Aabb { lo: tight.lo.map(|x| x - reach), hi: tight.hi.map(|x| x + reach) }
-        })
-        .collect()
+    parallel::map(soup.n_facets(), |f| {
+        let corners = soup.facet_edges[f].iter().map(|&e| soup.geometry.position(soup.directed(e)[0]));
+        let tight = Aabb::around(corners);
+        Aabb { lo: tight.lo.map(|x| x - reach), hi: tight.hi.map(|x| x + reach) }
+    })
 }
 
 /// Which facets may have something in common.
@@ -404,14 +401,18 @@ fn assemble(
     } else {
         dissolved.merged.vertices.iter().map(|&v| skeleton.vertices[v as usize]).collect()
     };
-    let complex = ChainComplex::new(
-        positions(&soup, &vertices),
-        vec![
-            boundary_1(vertices.len(), &dissolved.merged.edges),
-            boundary_2(dissolved.merged.edges.len(), &dissolved.merged),
-            boundary_3(&cells_of_face, shells.n_cells as usize),
-        ],
+    let n_edges = dissolved.merged.edges.len();
+    let (below, (boundary_2, boundary_3)) = parallel::join(
+        || (positions(&soup, &vertices), boundary_1(vertices.len(), &dissolved.merged.edges)),
+        || {
+            parallel::join(
+                || boundary_2(n_edges, &dissolved.merged),
+                || boundary_3(&cells_of_face, shells.n_cells as usize),
+            )
+        },
     );
+    let (points, boundary_1) = below;
+    let complex = ChainComplex::new(points, vec![boundary_1, boundary_2, boundary_3]);
     course.finish(&mut stats);
     stats.grid_step = soup.grid.step();
     stats.facets = soup.n_facets() as u64;
@@ -484,7 +485,7 @@ pub(crate) fn boundary_2(n_edges: usize, faces: &Merged) -> lar_core::Operator {
         edges.clear();
         for same in column.chunk_by(|a, b| a.0 == b.0) {
             // An edge that stands in the loops in both directions is no boundary.
-            if let [(edge, sign)] = *same {
+            if let &[(edge, sign)] = same {
                 edges.push(edge);
                 signs.push(sign);
             }

@@ -270,6 +270,13 @@ struct Facets {
 }
 
 impl Facets {
+    fn reserve(&mut self, n: usize, n_half_edges: usize) {
+        self.offsets.reserve(n);
+        self.polygon.reserve(n);
+        self.tails.reserve(n_half_edges);
+        self.heads.reserve(n_half_edges);
+    }
+
     fn push(&mut self, half_edges: impl Iterator<Item = [u32; 2]>, polygon: u32) {
         for [p, q] in half_edges {
             self.tails.push(p);
@@ -332,8 +339,11 @@ impl Builder<'_> {
             let bases = chosen.map(|t| t.map(|v| point_of[v as usize]));
             bases.map(|base| (base, self.geometry.grid_normal(base))).collect::<Vec<_>>()
         });
-        let first = self.polygon_flat.len() as u32;
-        let mut polygon = first;
+        let n = corners.len() / 3;
+        self.facets.reserve(n, 3 * n);
+        self.geometry.reserve_facets(n);
+        self.parents.reserve(n);
+        let mut polygon = self.polygon_flat.len() as u32;
         for ((base, normal), face) in parts.into_iter().flatten().zip(0..) {
             if normal == [0.0; 3] {
                 self.degenerate += 1;

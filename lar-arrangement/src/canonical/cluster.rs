@@ -1,7 +1,7 @@
 //! Clusters: polygons that meet and lie nearly in one plane.
 
 use super::fit::Fit;
-use super::scan::Scan;
+use super::scan::{Scan, Shape};
 use super::{Input, Tolerance};
 use crate::kernel::{Geometry, Plane};
 use crate::soup::Soup;
@@ -38,7 +38,6 @@ impl Cluster {
 /// What the search for clusters reads.
 struct Search<'a> {
     input: &'a Input<'a>,
-    scan: &'a Scan,
     /// The facets of polygon p, which follow each other, are `first_facet[p]..first_facet[p + 1]`.
     first_facet: Vec<u32>,
     neighbours: Neighbours,
@@ -53,7 +52,7 @@ pub(super) fn clusters(input: &Input, scan: &Scan) -> Vec<Cluster> {
     adjacent.dedup();
     let n_polygons = input.soup.polygon_flat.len();
     let first_facet = offsets(n_polygons, input.soup.facet_polygon.iter().copied());
-    let search = Search { input, scan, first_facet, neighbours: Neighbours::new(n_polygons, &adjacent) };
+    let search = Search { input, first_facet, neighbours: Neighbours::new(n_polygons, &adjacent) };
     let mut clusters = search.clusters(&adjacent);
     if !clusters.is_empty() {
         search.add_touching_corners(&mut clusters);
@@ -140,7 +139,7 @@ impl Search<'_> {
     /// Clusters grown from the widest polygons of a component that is not in one plane.
     fn split(&self, mut component: Vec<u32>, out: &mut Vec<Cluster>) {
         let width = |polygon: u32| {
-            let of = |f: u32| self.scan.shapes[f as usize].width;
+            let of = |f: u32| Shape::of(self.input, f).width;
             self.facets(polygon).map(of).fold(0.0, f64::max)
         };
         let mut free: FxHashMap<u32, f64> = component.iter().map(|&p| (p, width(p))).collect();

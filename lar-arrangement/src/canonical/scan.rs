@@ -15,8 +15,6 @@ pub(crate) struct Scan {
     pub near: Vec<[u32; 2]>,
     /// Pairs of facets of different polygons that lie nearly in one plane.
     pub coplanar: Vec<[u32; 2]>,
-    /// Of each facet.
-    pub(super) shapes: Vec<Shape>,
 }
 
 /// A facet seen as a plane.
@@ -43,11 +41,10 @@ struct Outline {
 
 impl Scan {
     pub(crate) fn new(input: &Input, course: &Course) -> Result<Self, Cancelled> {
-        let shapes = parallel::map(input.soup.n_facets(), |f| Shape::of(input, f as u32));
-        let outlines: Vec<Outline> = shapes.iter().map(Outline::of).collect();
+        let outlines = parallel::map(input.soup.n_facets(), |f| Outline::of(&Shape::of(input, f as u32)));
         let is_coplanar = |&[f, g]: &[u32; 2]| {
             !outlines[f as usize].is_across(&outlines[g as usize])
-                && are_nearly_coplanar(input, &shapes, [f, g])
+                && are_nearly_coplanar(input, [f, g])
         };
         let (n_chunks, range) = parallel::chunks(input.pairs.len(), PAIRS_A_CHUNK);
         let mut coplanar = course.map(n_chunks, |chunk| {
@@ -58,7 +55,7 @@ impl Scan {
             let edges = range(chunk).start as u32..range(chunk).end as u32;
             edges.filter_map(|edge| input.neighbours_at(edge)).filter(is_coplanar).collect::<Vec<_>>()
         })?);
-        Ok(Self { near: near_points(input, course)?, coplanar: coplanar.concat(), shapes })
+        Ok(Self { near: near_points(input, course)?, coplanar: coplanar.concat() })
     }
 }
 
@@ -98,12 +95,12 @@ fn near_points(input: &Input, course: &Course) -> Result<Vec<[u32; 2]>, Cancelle
     Ok(near)
 }
 
-fn are_nearly_coplanar(input: &Input, shapes: &[Shape], [f, g]: [u32; 2]) -> bool {
-    let (a, b) = (&shapes[f as usize], &shapes[g as usize]);
+fn are_nearly_coplanar(input: &Input, [f, g]: [u32; 2]) -> bool {
     let polygons = [f, g].map(|f| input.soup.facet_polygon[f as usize]);
     if polygons[0] == polygons[1] || polygons.iter().any(|&p| !input.soup.polygon_flat[p as usize]) {
         return false;
     }
+    let (a, b) = (&Shape::of(input, f), &Shape::of(input, g));
     let (wide, narrow, facet) = if a.width >= b.width { (a, b, g) } else { (b, a, f) };
     wide.nearly_holds(narrow, input.corners(facet).map(|p| input.soup.geometry.position(p)))
 }
@@ -134,7 +131,7 @@ impl Outline {
 }
 
 impl Shape {
-    fn of(input: &Input, facet: u32) -> Self {
+    pub(super) fn of(input: &Input, facet: u32) -> Self {
         let geometry = &input.soup.geometry;
         let [a, b, c] = geometry.base(facet).map(|p| geometry.position(p));
         let normal = geometry.normal(facet);

@@ -223,6 +223,10 @@ impl Geometry {
         self.reach == Reach::Grid && self.canonical.planes.is_empty()
     }
 
+    pub(crate) fn reserve_facets(&mut self, n: usize) {
+        self.facets.reserve(n);
+    }
+
     /// Adds a facet by three grid points and the normal that `grid_normal` gives for them, in a scene on the grid.
     pub(crate) fn push_grid_facet(&mut self, base: [u32; 3], normal: [f64; 3]) {
         self.facets.push(Facet { base, normal });

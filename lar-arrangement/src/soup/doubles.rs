@@ -2,9 +2,13 @@
 
 use super::{Parent, Soup};
 use crate::half_edges::{self, MANY, NONE};
+use crate::parallel;
 use crate::split::offsets;
 use lar_core::Cells;
 use rustc_hash::FxHashMap;
+
+/// Facets a chunk of work.
+const FACETS_A_CHUNK: usize = 1 << 14;
 
 /// A facet, the first one with the same corners, and whether both turn the same way.
 pub(super) struct Double {
@@ -16,12 +20,15 @@ pub(super) struct Double {
 /// The triangles of the input that came before, ascending. O(n) expected: only those can be such that share two edges
 /// with one facet, or an edge with more than one.
 pub(super) fn of(soup: &Soup) -> Vec<Double> {
+    let (n_chunks, range) = parallel::chunks(soup.n_facets(), FACETS_A_CHUNK);
+    let candidates = parallel::map(n_chunks, |chunk| {
+        let facets = range(chunk).map(|f| f as u32);
+        facets.filter(|&f| may_be_double(soup, f)).collect::<Vec<_>>()
+    });
     let mut first_with: FxHashMap<[u32; 3], u32> = FxHashMap::default();
     let mut doubles = Vec::new();
-    for facet in 0..soup.n_facets() as u32 {
-        let Some(corners) = input_triangle(soup, facet).filter(|_| may_be_double(soup, facet)) else {
-            continue;
-        };
+    for facet in candidates.into_iter().flatten() {
+        let Some(corners) = input_triangle(soup, facet) else { continue };
         let mut key = corners;
         key.sort_unstable();
         let first = *first_with.entry(key).or_insert(facet);
