@@ -99,17 +99,44 @@ impl<const D: usize> Block<D> {
         out
     }
 
-    /// The boxes, as bits, that meet box i of another block.
-    fn meeting(&self, other: &Self, i: usize) -> u8 {
-        let mut meets = [true; WIDTH];
+    /// Box i.
+    fn at(&self, i: usize) -> Near<D> {
+        Near { lo: std::array::from_fn(|k| self.lo[k][i]), hi: std::array::from_fn(|k| self.hi[k][i]) }
+    }
+
+    /// The boxes, as bits, that meet a box. All comparisons are made, on all boxes at once.
+    fn meeting(&self, other: &Near<D>) -> u8 {
+        let mask = |holds: bool| if holds { u32::MAX } else { 0 };
+        let mut meets: [u32; WIDTH] = std::array::from_fn(|i| 1 << i);
         for k in 0..D {
-            let (lo, hi) = (other.lo[k][i], other.hi[k][i]);
-            for (at, meets) in meets.iter_mut().enumerate() {
-                *meets &= (self.lo[k][at] <= hi) & (lo <= self.hi[k][at]);
+            for (i, meets) in meets.iter_mut().enumerate() {
+                *meets &= mask(self.lo[k][i] <= other.hi[k]) & mask(other.lo[k] <= self.hi[k][i]);
             }
         }
-        meets.iter().enumerate().fold(0, |bits, (at, &meets)| bits | u8::from(meets) << at)
+        meets.iter().fold(0, |bits, meets| bits | meets) as u8
     }
+}
+
+/// A box in 32 bits, rounded outwards.
+#[derive(Clone, Copy, Debug)]
+struct Near<const D: usize> {
+    lo: [f32; D],
+    hi: [f32; D],
+}
+
+impl<const D: usize> Near<D> {
+    fn new(b: &Aabb<D>) -> Self {
+        Self { lo: b.lo.map(below), hi: b.hi.map(above) }
+    }
+}
+
+/// The numbers of the bits that are set, ascending.
+fn bits_of(mut bits: u8) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let next = (bits != 0).then(|| bits.trailing_zeros() as usize);
+        bits &= bits.wrapping_sub(1);
+        next
+    })
 }
 
 /// The largest `f32` that is not above x, or a neighbour of it.
@@ -127,8 +154,8 @@ fn above(x: f64) -> f32 {
 pub(crate) struct BoxTree<const D: usize = 3> {
     /// Item at each leaf.
     items: Vec<u32>,
-    /// The leaves' boxes by blocks of eight.
-    blocks: Vec<Block<D>>,
+    /// The boxes of each level by blocks of eight.
+    blocks: Vec<Vec<Block<D>>>,
     /// Level 0 holds the leaves' boxes; a box of level k + 1 encloses eight of level k.
     levels: Vec<Vec<Aabb<D>>>,
     /// The group that everything under a node belongs to, or `NO_GROUP`; empty when there are no groups.
@@ -159,7 +186,7 @@ impl<const D: usize> BoxTree<D> {
             levels
                 .push(below.chunks(WIDTH).map(|c| c.iter().fold(Aabb::EMPTY, |a, b| a.joined(b))).collect());
         }
-        let blocks = levels[0].chunks(WIDTH).map(Block::new).collect();
+        let blocks = levels.iter().map(|level| level.chunks(WIDTH).map(Block::new).collect()).collect();
         Self { items, blocks, levels, groups: Vec::new(), marks: Vec::new() }
     }
 
@@ -241,29 +268,30 @@ impl<const D: usize> BoxTree<D> {
 
     /// Calls `visit` with each leaf at or after `first` whose box meets `target` and that is not of a group.
     fn leaves(&self, target: &Aabb<D>, first: usize, group: u32, visit: &mut impl FnMut(usize)) {
+        let near = Near::new(target);
+        let is_wanted =
+            |level: usize, i: usize| self.levels[level][i].meets(target) && !self.is_within(group, level, i);
         let top = self.levels.len() - 1;
-        let mut stack: Vec<(usize, usize)> = (0..self.levels[top].len()).rev().map(|i| (top, i)).collect();
+        // At most seven nodes of each level wait while their sister is searched.
+        let mut stack: Vec<(usize, usize)> = Vec::with_capacity(WIDTH * self.levels.len());
+        stack.extend((0..self.levels[top].len()).filter(|&i| is_wanted(top, i)).map(|i| (top, i)));
         while let Some((level, i)) = stack.pop() {
-            if !self.levels[level][i].meets(target) || self.is_within(group, level, i) {
-                continue;
-            }
             if level == 0 {
                 visit(i);
                 continue;
             }
-            let below = self.levels[level - 1].len();
-            let (from, to) = (i * WIDTH, ((i + 1) * WIDTH).min(below));
-            if level == 1 {
-                for leaf in from.max(first)..to {
-                    if self.levels[0][leaf].meets(target) && !self.is_within(group, 0, leaf) {
-                        visit(leaf);
-                    }
-                }
-                continue;
-            }
+            let below = level - 1;
             // A subtree whose last leaf comes before `first` is of no use.
-            let leaves_each = WIDTH.pow(level as u32 - 1);
-            stack.extend((from..to).rev().filter(|c| (c + 1) * leaves_each > first).map(|c| (level - 1, c)));
+            let from = first / WIDTH.pow(below as u32);
+            let children = bits_of(self.blocks[below][i].meeting(&near)).map(|bit| i * WIDTH + bit);
+            let wanted = children.filter(|&c| from <= c && is_wanted(below, c));
+            if below == 0 {
+                wanted.for_each(&mut *visit);
+            } else {
+                let pushed = stack.len();
+                stack.extend(wanted.map(|c| (below, c)));
+                stack[pushed..].reverse();
+            }
         }
     }
 
@@ -290,13 +318,9 @@ impl<const D: usize> BoxTree<D> {
         let (from, to) = (block * WIDTH, ((block + 1) * WIDTH).min(leaves.len()));
         let hull = leaves[from..to].iter().fold(Aabb::EMPTY, |a, b| a.joined(b));
         self.leaves(&hull, from, self.group_of_block(block), &mut |other| {
-            let mut meeting = self.blocks[block].meeting(&self.blocks[other / WIDTH], other % WIDTH);
-            if other < to {
-                meeting &= (1 << (other - from)) - 1;
-            }
-            while meeting != 0 {
-                let this = from + meeting.trailing_zeros() as usize;
-                meeting &= meeting - 1;
+            let near = self.blocks[0][other / WIDTH].at(other % WIDTH);
+            let before = if other < to { (1 << (other - from)) - 1 } else { u8::MAX };
+            for this in bits_of(self.blocks[0][block].meeting(&near) & before).map(|bit| from + bit) {
                 if !self.are_settled(this, other) && leaves[this].meets(&leaves[other]) {
                     visit(self.items[this], self.items[other]);
                 }

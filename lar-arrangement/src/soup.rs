@@ -12,7 +12,6 @@ use crate::grid::Grid;
 use crate::grid_points::PointTable;
 use crate::half_edges;
 use crate::kernel::{Geometry, Sign};
-use crate::parallel;
 use crate::polygon::{Polygon, Shape};
 use crate::split::offsets;
 use lar_core::{Cells, Surface};
@@ -312,9 +311,6 @@ fn by_polygon(n_polygons: usize, mut parents: Vec<(u32, Parent)>) -> (Vec<Parent
     (parents.into_iter().map(|p| p.1).collect(), offsets)
 }
 
-/// Triangles a chunk of work.
-const TRIANGLES_A_CHUNK: usize = 4096;
-
 struct Builder<'a> {
     geometry: Geometry,
     tolerances: &'a [Tolerance],
@@ -333,27 +329,24 @@ struct Builder<'a> {
 impl Builder<'_> {
     /// The faces of a surface of triangles on the grid.
     fn push_triangles_of(&mut self, solid: usize, corners: &[u32], point_of: &[u32]) {
-        let (n_chunks, range) = parallel::chunks(corners.len() / 3, TRIANGLES_A_CHUNK);
-        let parts = parallel::map(n_chunks, |chunk| {
-            let chosen = corners[3 * range(chunk).start..3 * range(chunk).end].as_chunks::<3>().0.iter();
-            let bases = chosen.map(|t| t.map(|v| point_of[v as usize]));
-            bases.map(|base| (base, self.geometry.grid_normal(base))).collect::<Vec<_>>()
-        });
         let n = corners.len() / 3;
+        let point = |corner: usize| point_of[corners[corner] as usize];
+        let new = self.geometry.push_grid_facets(n, |i| [0, 1, 2].map(|k| point(3 * i + k)));
         self.facets.reserve(n, 3 * n);
-        self.geometry.reserve_facets(n);
         self.parents.reserve(n);
         let mut polygon = self.polygon_flat.len() as u32;
-        for ((base, normal), face) in parts.into_iter().flatten().zip(0..) {
-            if normal == [0.0; 3] {
+        for (facet, face) in new.zip(0..) {
+            if self.geometry.normal(facet) == [0.0; 3] {
                 self.degenerate += 1;
                 continue;
             }
-            self.geometry.push_grid_facet(base, normal);
-            let [a, b, c] = base;
+            let [a, b, c] = self.geometry.base(facet);
             self.facets.push([[a, b], [b, c], [c, a]].into_iter(), polygon);
             self.parents.push((polygon, Parent { solid: solid as u32, face, sign: 1 }));
             polygon += 1;
+        }
+        if (polygon as usize) < self.polygon_flat.len() + n {
+            self.geometry.drop_grid_facets_without_normal();
         }
         self.polygon_flat.resize(polygon as usize, true);
     }

@@ -44,21 +44,27 @@ pub(crate) fn rings(skeleton: &Skeleton, geometry: &Geometry) -> Cells {
             *at += 1;
         }
     }
-    let (n_chunks, range) = parallel::chunks(n, 4096);
+    let of = |edge: u32| offsets[edge as usize] as usize..offsets[edge as usize + 1] as usize;
+    let crowded: Vec<u32> = (0..n as u32).filter(|&edge| of(edge).len() > 2).collect();
+    let (n_chunks, range) = parallel::chunks(crowded.len(), 1024);
     let sorted = parallel::map(n_chunks, |chunk| {
         let mut out = Vec::new();
-        for edge in range(chunk) {
-            let ring = &entries[offsets[edge] as usize..offsets[edge + 1] as usize];
-            out.extend_from_slice(ring);
-            if ring.len() > 2 {
-                let at = out.len() - ring.len();
-                sort_ring(&mut out[at..], edge as u32, skeleton, geometry);
-            }
+        for &edge in &crowded[range(chunk)] {
+            let at = out.len();
+            out.extend_from_slice(&entries[of(edge)]);
+            sort_ring(&mut out[at..], edge, skeleton, geometry);
         }
         out
-    })
-    .concat();
-    Cells::from_parts(offsets, sorted)
+    });
+    for (rings, chunk) in sorted.iter().zip(0..) {
+        let mut rest = rings.as_slice();
+        for &edge in &crowded[range(chunk)] {
+            let (ring, after) = rest.split_at(of(edge).len());
+            entries[of(edge)].copy_from_slice(ring);
+            rest = after;
+        }
+    }
+    Cells::from_parts(offsets, entries)
 }
 
 fn sort_ring(ring: &mut [u32], edge: u32, skeleton: &Skeleton, geometry: &Geometry) {

@@ -8,7 +8,9 @@ use super::approx::{ApproxPlane, approx_point};
 use super::double::Double;
 use super::point::{HPointOf, Plane, PlaneOf};
 use super::{Int, Sign};
+use crate::parallel;
 use lar_core::Cells;
+use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// How often the `f64` filters could not decide and exact integers did.
@@ -223,13 +225,20 @@ impl Geometry {
         self.reach == Reach::Grid && self.canonical.planes.is_empty()
     }
 
-    pub(crate) fn reserve_facets(&mut self, n: usize) {
-        self.facets.reserve(n);
+    /// Adds n triangles of grid points, in a scene on the grid, and returns their numbers. Those of collinear points have
+    /// no normal: they must be dropped.
+    pub(crate) fn push_grid_facets(&mut self, n: usize, base: impl Fn(usize) -> [u32; 3] + Sync + Send) -> Range<u32> {
+        let before = self.facets.len() as u32;
+        let mut new = parallel::map(n, |i| {
+            let base = base(i);
+            Facet { base, normal: self.grid_normal(base) }
+        });
+        if before == 0 { self.facets = new } else { self.facets.append(&mut new) }
+        before..self.facets.len() as u32
     }
 
-    /// Adds a facet by three grid points and the normal that `grid_normal` gives for them, in a scene on the grid.
-    pub(crate) fn push_grid_facet(&mut self, base: [u32; 3], normal: [f64; 3]) {
-        self.facets.push(Facet { base, normal });
+    pub(crate) fn drop_grid_facets_without_normal(&mut self) {
+        self.facets.retain(|facet| facet.normal != [0.0; 3]);
     }
 
     /// Keeps the facets for which `keep` holds, by their numbers, and numbers them anew.
