@@ -5,6 +5,7 @@ use crate::progress::{Cancelled, Course};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::ops::Range;
+use wide::f32x8;
 
 /// An axis-aligned closed box.
 #[derive(Clone, Copy, Debug)]
@@ -83,37 +84,35 @@ pub(crate) const NO_GROUP: u32 = u32::MAX;
 /// let through is tested again in 64 bits.
 #[derive(Clone, Copy, Debug)]
 struct Block<const D: usize> {
-    lo: [[f32; WIDTH]; D],
-    hi: [[f32; WIDTH]; D],
+    lo: [f32x8; D],
+    hi: [f32x8; D],
 }
 
 impl<const D: usize> Block<D> {
     fn new(boxes: &[Aabb<D>]) -> Self {
-        let mut out = Self { lo: [[f32::INFINITY; WIDTH]; D], hi: [[f32::NEG_INFINITY; WIDTH]; D] };
+        let (mut lo, mut hi) = ([[f32::INFINITY; WIDTH]; D], [[f32::NEG_INFINITY; WIDTH]; D]);
         for (i, b) in boxes.iter().enumerate() {
+            let near = Near::new(b);
             for k in 0..D {
-                out.lo[k][i] = below(b.lo[k]);
-                out.hi[k][i] = above(b.hi[k]);
+                (lo[k][i], hi[k][i]) = (near.lo[k], near.hi[k]);
             }
         }
-        out
+        Self { lo: lo.map(f32x8::from), hi: hi.map(f32x8::from) }
     }
 
     /// Box i.
     fn at(&self, i: usize) -> Near<D> {
-        Near { lo: std::array::from_fn(|k| self.lo[k][i]), hi: std::array::from_fn(|k| self.hi[k][i]) }
+        let of = |side: &[f32x8; D]| std::array::from_fn(|k| side[k].as_array()[i]);
+        Near { lo: of(&self.lo), hi: of(&self.hi) }
     }
 
-    /// The boxes, as bits, that meet a box. All comparisons are made, on all boxes at once.
+    /// The boxes, as bits, that meet a box.
     fn meeting(&self, other: &Near<D>) -> u8 {
-        let mask = |holds: bool| if holds { u32::MAX } else { 0 };
-        let mut meets: [u32; WIDTH] = std::array::from_fn(|i| 1 << i);
-        for k in 0..D {
-            for (i, meets) in meets.iter_mut().enumerate() {
-                *meets &= mask(self.lo[k][i] <= other.hi[k]) & mask(other.lo[k] <= self.hi[k][i]);
-            }
-        }
-        meets.iter().fold(0, |bits, meets| bits | meets) as u8
+        let along = |k: usize| {
+            let (lo, hi) = (f32x8::splat(other.lo[k]), f32x8::splat(other.hi[k]));
+            self.lo[k].simd_le(hi) & lo.simd_le(self.hi[k])
+        };
+        (1..D).fold(along(0), |all, k| all & along(k)).to_bitmask() as u8
     }
 }
 
@@ -130,6 +129,17 @@ impl<const D: usize> Near<D> {
     }
 }
 
+/// An `f32` that is not above x: twice the error of rounding to nearest, and a tiny number, below it. Infinities stay,
+/// or become no number when they make a box empty.
+fn below(x: f64) -> f32 {
+    let near = x as f32;
+    near - near.abs() * f32::EPSILON - f32::MIN_POSITIVE
+}
+
+fn above(x: f64) -> f32 {
+    -below(-x)
+}
+
 /// The numbers of the bits that are set, ascending.
 fn bits_of(mut bits: u8) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
@@ -137,16 +147,6 @@ fn bits_of(mut bits: u8) -> impl Iterator<Item = usize> {
         bits &= bits.wrapping_sub(1);
         next
     })
-}
-
-/// The largest `f32` that is not above x, or a neighbour of it.
-fn below(x: f64) -> f32 {
-    let near = x as f32;
-    if f64::from(near) > x { near.next_down() } else { near }
-}
-
-fn above(x: f64) -> f32 {
-    -below(-x)
 }
 
 /// Boxes in a tree.

@@ -36,8 +36,7 @@ pub(crate) fn unchanged(skeleton: &mut Skeleton, rings: Cells) -> Dissolved {
 }
 
 /// Dissolves.
-pub(crate) fn dissolve(skeleton: &Skeleton, rings: Cells, soup: &Soup) -> Dissolved {
-    let rings = &rings;
+pub(crate) fn dissolve(skeleton: &Skeleton, rings: &Cells, soup: &Soup) -> Dissolved {
     let mut removed: Vec<bool> =
         (0..skeleton.edges.len()).map(|e| is_dissolvable(e, skeleton, rings, soup)).collect();
     let faces = Faces { edges: &skeleton.edges, loops: &skeleton.loops, face_loops: &skeleton.face_loops };

@@ -217,7 +217,7 @@ impl<'a> Arranger<'a> {
         let (cell_of_shell, n_cells) = nesting.cells(&course)?;
         course.begin("membership", &mut stats)?;
         let dissolved = if skeleton.soft.contains(&true) {
-            dissolve::dissolve(&skeleton, rings, &soup)
+            dissolve::dissolve(&skeleton, &rings, &soup)
         } else {
             dissolve::unchanged(&mut skeleton, rings)
         };

@@ -69,7 +69,8 @@ impl Skeleton {
         let between_points = pieces.filter(|ends| ends.iter().all(|&v| v < n_points));
         let input_edges = soup.edges_between(between_points.map(|[a, b]| [a.min(b), a.max(b)]));
         let ids = FxHashMap::default();
-        let mut builder = Builder { out, soup, cuts, compact, whole, input_edges, ids, done: 0, one_loop: Vec::new() };
+        let mut builder =
+            Builder { out, soup, cuts, compact, whole, input_edges, ids, done: 0, one_loop: Vec::new() };
         let mut next = 0;
         for part in &fragments {
             let mut of_piece = vec![NOT_SEEN; part.pieces.len()];

@@ -43,8 +43,7 @@ impl Scan {
     pub(crate) fn new(input: &Input, course: &Course) -> Result<Self, Cancelled> {
         let outlines = parallel::map(input.soup.n_facets(), |f| Outline::of(&Shape::of(input, f as u32)));
         let is_coplanar = |&[f, g]: &[u32; 2]| {
-            !outlines[f as usize].is_across(&outlines[g as usize])
-                && are_nearly_coplanar(input, [f, g])
+            !outlines[f as usize].is_across(&outlines[g as usize]) && are_nearly_coplanar(input, [f, g])
         };
         let (n_chunks, range) = parallel::chunks(input.pairs.len(), PAIRS_A_CHUNK);
         let mut coplanar = course.map(n_chunks, |chunk| {

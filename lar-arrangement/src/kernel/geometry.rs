@@ -227,13 +227,21 @@ impl Geometry {
 
     /// Adds n triangles of grid points, in a scene on the grid, and returns their numbers. Those of collinear points have
     /// no normal: they must be dropped.
-    pub(crate) fn push_grid_facets(&mut self, n: usize, base: impl Fn(usize) -> [u32; 3] + Sync + Send) -> Range<u32> {
+    pub(crate) fn push_grid_facets(
+        &mut self,
+        n: usize,
+        base: impl Fn(usize) -> [u32; 3] + Sync + Send,
+    ) -> Range<u32> {
         let before = self.facets.len() as u32;
         let mut new = parallel::map(n, |i| {
             let base = base(i);
             Facet { base, normal: self.grid_normal(base) }
         });
-        if before == 0 { self.facets = new } else { self.facets.append(&mut new) }
+        if before == 0 {
+            self.facets = new;
+        } else {
+            self.facets.append(&mut new);
+        }
         before..self.facets.len() as u32
     }
 
