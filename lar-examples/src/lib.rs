@@ -20,6 +20,8 @@ mod bar;
 pub mod checks;
 pub mod command;
 mod error;
+#[cfg(feature = "window")]
+mod exploration;
 #[cfg(feature = "viewer")]
 pub mod figures;
 #[cfg(doctest)]

@@ -327,6 +327,18 @@ impl CellData {
         found
     }
 
+    /// The cells of dimension `dim` that have a cell in their boundaries, in rising order; the cell itself in its own.
+    #[must_use]
+    pub(crate) fn cells_above(&self, cell: CellRef, dim: u8) -> Vec<u32> {
+        (cell.dim..dim).fold(vec![cell.index], |cells, dim| {
+            let above = cells.into_iter().flat_map(|index| self.above(CellRef { dim, index }));
+            let mut above: Vec<u32> = above.collect();
+            above.sort_unstable();
+            above.dedup();
+            above
+        })
+    }
+
     /// The cells of the next dimension with this one in their boundaries.
     fn above(&self, cell: CellRef) -> Vec<u32> {
         let row = self.rows.get(usize::from(cell.dim)).and_then(|rows| rows.outer_view(cell.index as usize));
@@ -439,6 +451,7 @@ mod tests {
             "a corner: the exterior and one cell"
         );
         assert_eq!(data.units_of(cell(0, 99)), []);
+        assert_eq!((data.cells_above(cell(0, 0), 2).len(), data.cells_above(cell(2, 5), 2)), (3, vec![5]));
         // A triangle without ∂2: three lone edges.
         let edges = lar_core::Cells::uniform(2, vec![0, 1, 1, 2, 0, 2]);
         let d1 = ChainComplex::operator_from_columns(3, edges, vec![-1, 1, -1, 1, -1, 1]);

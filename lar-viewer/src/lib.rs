@@ -5,7 +5,7 @@
 //! [`Camera`], the factors of the explosion, opacity, background. [`OffscreenRenderer`] turns both into an [`Image`];
 #![cfg_attr(
     feature = "window",
-    doc = "[`view()`] shows them in a window, with the same renderer and sliders."
+    doc = "[`view()`] shows them in a window, with the same renderer; [`explore()`] shows a complex, to be asked and taken apart."
 )]
 #![cfg_attr(not(feature = "window"), doc = "the feature `window` adds a window with the same renderer.")]
 //!
@@ -15,6 +15,7 @@
 //!
 //! Features: `window` (default) brings winit and egui; without it the crate needs wgpu and png only.
 
+mod animation;
 mod bounds;
 mod camera;
 mod cell_data;
@@ -34,6 +35,7 @@ mod view;
 #[cfg(feature = "window")]
 mod window;
 
+pub use animation::Animation;
 pub use bounds::Bounds;
 pub use camera::{Camera, Projection};
 pub use cell_data::{CellData, FaceParent, Measures, Provenance};
@@ -51,4 +53,4 @@ pub use text::{
 };
 pub use view::View;
 #[cfg(feature = "window")]
-pub use window::view;
+pub use window::{Exhibit, Exploration, NoQueries, Queries, Source, explore, view};

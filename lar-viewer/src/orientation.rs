@@ -92,6 +92,13 @@ impl Orientation {
         Self((DQuat::from_rotation_z(-yaw) * self.0 * DQuat::from_rotation_x(-pitch)).normalize())
     }
 
+    /// Turned about the world's z axis by this angle in radians, from x towards y.
+    #[must_use]
+    pub fn turned(self, angle: f64) -> Self {
+        let angle = if angle.is_finite() { angle } else { 0.0 };
+        Self((DQuat::from_rotation_z(angle) * self.0).normalize())
+    }
+
     /// Turned by a mouse motion as a trackball: about the screen's own axes, without any limit.
     #[must_use]
     pub fn tumble(self, pixels: [f64; 2]) -> Self {

@@ -68,6 +68,23 @@ impl View {
         Self { camera: self.camera.fit_points(scene.points(self.explode), aspect), ..self }
     }
 
+    /// A full turn about the vertical axis through the target in `n` views, beginning with this one.
+    ///
+    /// ```
+    /// let turn = lar_viewer::View::default().turntable(4);
+    /// assert_eq!(turn.len(), 4);
+    /// let [east, west] = [turn[0], turn[2]].map(|v| v.camera.eye());
+    /// assert!((east[0] + west[0]).abs() < 1e-9 && (east[2] - west[2]).abs() < 1e-9);
+    /// ```
+    #[must_use]
+    pub fn turntable(&self, n: u32) -> Vec<Self> {
+        let angle = |i: u32| std::f64::consts::TAU * f64::from(i) / f64::from(n);
+        let orientation = |i| self.camera.orientation.turned(angle(i));
+        (0..n)
+            .map(|i| Self { camera: Camera { orientation: orientation(i), ..self.camera }, ..*self })
+            .collect()
+    }
+
     /// Checks that all parameters are finite and in range.
     ///
     /// # Errors

@@ -4,6 +4,7 @@
 //! missing ones fail the test.
 #![cfg(all(feature = "window", target_os = "linux"))]
 
+use std::cell::RefCell;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -19,6 +20,8 @@ struct Session {
     display: String,
     window: Child,
     dir: tempfile::TempDir,
+    /// The screen as it was last seen at rest.
+    seen: RefCell<Option<Vec<u8>>>,
 }
 
 impl Drop for Session {
@@ -33,7 +36,7 @@ impl Drop for Session {
 
 impl Session {
     #[expect(clippy::print_stderr, reason = "a test that cannot run says so")]
-    fn start() -> Option<Self> {
+    fn start(example: &str, arguments: &[&str], files: &[(&str, &str)]) -> Option<Self> {
         let missing = ["Xvfb", "xdotool", "import"].into_iter().find(|program| !is_installed(program));
         if let Some(program) = missing {
             assert!(std::env::var_os("LAR_REQUIRE_GPU").is_none(), "{program} is not installed");
@@ -50,17 +53,19 @@ impl Session {
         BufReader::new(screen.stdout.take().unwrap()).read_line(&mut number).unwrap();
         let display = format!(":{}", number.trim());
         let dir = tempfile::tempdir().unwrap();
-        let window = Command::new(example())
+        files.iter().for_each(|(name, text)| std::fs::write(dir.path().join(name), text).unwrap());
+        let window = Command::new(self::example(example))
+            .args(arguments)
             .current_dir(dir.path())
             .env("DISPLAY", &display)
             .env("XDG_RUNTIME_DIR", dir.path())
             .env_remove("WAYLAND_DISPLAY")
             .spawn()
             .unwrap();
-        let session = Self { screen, display, window, dir };
-        session.xdotool(
-            "search --sync --onlyvisible --name cubes windowfocus windowmove 0 0 windowsize 1200 760",
-        );
+        let session = Self { screen, display, window, dir, seen: RefCell::default() };
+        session.xdotool(&format!(
+            "search --sync --onlyvisible --name {example} windowfocus windowmove 0 0 windowsize 1280 780"
+        ));
         Some(session)
     }
 
@@ -83,14 +88,15 @@ impl Session {
         self.xdotool(&format!("mouseup {button}"));
     }
 
-    /// The whole screen, once two looks at it agree.
+    /// The whole screen, once something is on it and two looks at it agree.
     fn look(&self) -> Vec<u8> {
         let start = Instant::now();
         let mut last = self.screenshot();
         loop {
             sleep(Duration::from_millis(400));
             let next = self.screenshot();
-            if next == last || PATIENCE < start.elapsed() {
+            let is_empty = next.chunks_exact(3).all(|pixel| pixel == &next[..3]);
+            if (next == last && !is_empty) || PATIENCE < start.elapsed() {
                 return next;
             }
             last = next;
@@ -110,13 +116,14 @@ impl Session {
     /// Does something and asserts that at least `least` pixels of the screen change.
     #[track_caller]
     fn check_changes(&self, what: &str, least: usize, act: impl FnOnce(&Self)) {
-        let before = self.look();
+        let before = self.seen.take().unwrap_or_else(|| self.look());
         act(self);
         let start = Instant::now();
         let mut changed = 0;
         while changed < least && start.elapsed() < PATIENCE {
             let after = self.look();
             changed = before.chunks_exact(3).zip(after.chunks_exact(3)).filter(|(a, b)| a != b).count();
+            self.seen.replace(Some(after));
         }
         assert!(least <= changed, "{what} changed only {changed} pixels");
     }
@@ -141,46 +148,83 @@ fn is_installed(program: &str) -> bool {
     std::env::split_paths(&path).any(|dir| dir.join(program).is_file())
 }
 
-/// The `cubes` example, which cargo builds with the tests.
-fn example() -> PathBuf {
+/// An example, which cargo builds with the tests.
+fn example(name: &str) -> PathBuf {
     let test = std::env::current_exe().unwrap();
     let target = test.parent().and_then(Path::parent).unwrap();
-    target.join("examples/cubes")
+    target.join("examples").join(name)
+}
+
+/// Compares the screen, but for its lowest rows, with the committed picture: at most one pixel in a hundred may differ by
+/// more than 16 of 255. `LAR_UPDATE_PICTURES=1` writes the picture.
+#[track_caller]
+fn check_screen(session: &Session, name: &str) {
+    let rows = 750;
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/pictures/{name}.png"));
+    let screen = session.look();
+    if std::env::var_os("LAR_UPDATE_PICTURES").is_some() {
+        let arguments = ["-window", "root", "-crop", &format!("1280x{rows}+0+0"), "+repage", "-strip"];
+        let status =
+            Command::new("import").args(arguments).arg(&path).env("DISPLAY", &session.display).status();
+        assert!(status.unwrap().success());
+    }
+    let expected = Command::new("convert").arg(&path).args(["-depth", "8", "rgb:-"]).output().unwrap().stdout;
+    assert_eq!(expected.len(), 1280 * rows * 3, "size of {name}");
+    let pixels = screen.chunks_exact(3).zip(expected.chunks_exact(3));
+    let differing = pixels.filter(|(a, b)| a.iter().zip(*b).any(|(x, y)| 16 < x.abs_diff(*y))).count();
+    assert!(differing <= 1280 * rows / 100, "{differing} pixels of {name} differ");
 }
 
 #[test]
-fn a_session_with_mouse_and_keys() {
-    let Some(session) = Session::start() else { return };
-    session.check_changes("the first picture", 0, |_| {});
-    session.check_changes("turning", 20_000, |s| s.drag(1, [400, 400], [520, 360]));
-    session.check_changes("moving", 20_000, |s| s.drag(3, [400, 400], [450, 420]));
-    session.check_changes("moving with shift", 20_000, |s| {
-        s.xdotool("keydown shift");
-        s.drag(1, [450, 420], [400, 400]);
-        s.xdotool("keyup shift");
+fn a_complex_is_explored_with_mouse_and_keys() {
+    let Some(session) = Session::start("grid", &["shape.txt"], &[("shape.txt", "2 1 1")]) else { return };
+    check_screen(&session, "window");
+    session.check_changes("selecting a cell", 2_000, |s| s.xdotool("mousemove 420 450 click 1"));
+    session.check_changes("its boundary chain", 20_000, |s| s.xdotool("mousemove 600 700 key b"));
+    session.check_changes("leaving the chain", 20_000, |s| s.xdotool("key Escape"));
+    session.check_changes("hiding it", 20_000, |s| s.xdotool("key h"));
+    session.check_changes("undo", 20_000, |s| s.xdotool("key ctrl+z"));
+    session.check_changes("turning", 20_000, |s| s.drag(1, [500, 400], [620, 360]));
+    session.check_changes("moving", 20_000, |s| s.drag(3, [500, 400], [550, 420]));
+    session.check_changes("zooming", 20_000, |s| s.xdotool("mousemove 600 300 click 4 click 4"));
+    session.check_changes("looking from the front", 20_000, |s| s.xdotool("key 1"));
+    session.check_changes("fitting", 2_000, |s| s.xdotool("key f"));
+    session.check_changes("projection", 2_000, |s| s.xdotool("key 7 key p"));
+    session.check_changes("the help", 20_000, |s| s.xdotool("key F1"));
+    session.check_changes("leaving the help", 20_000, |s| s.xdotool("key Escape"));
+    session.check_changes("another shape", 20_000, |s| {
+        std::fs::write(s.dir.path().join("shape.txt"), "3 3 1").unwrap();
     });
-    session.check_changes("zooming", 20_000, |s| s.xdotool("mousemove 300 300 click 4 click 4"));
-    session.check_changes("exploding", 20_000, |s| s.drag(1, [975, 42], [1005, 42]));
-    session.check_changes("projection", 10_000, |s| s.xdotool("mousemove 500 500 key p"));
-    session.check_changes("fitting", 20_000, |s| s.xdotool("key f"));
-    session.check_changes("shrinking the window", 20_000, |s| {
-        s.xdotool("search --name cubes windowsize 700 500");
+    session.check_changes("a shape that is none", 200, |s| {
+        std::fs::write(s.dir.path().join("shape.txt"), "3 3").unwrap();
     });
-    session.xdotool("search --name cubes windowsize 1 1");
-    session.check_changes("enlarging the window", 20_000, |s| {
-        s.xdotool("search --name cubes windowsize 1200 760");
-    });
-    session.check_changes("saving", 50, |s| s.xdotool("mousemove 1000 301 click 1"));
+    session.check_changes("saving", 50, |s| s.xdotool("mousemove 600 500 key s"));
     let saved = std::fs::read(session.dir.path().join("lar-1.png")).expect("a screenshot");
     assert!(saved.starts_with(b"\x89PNG"));
-    session.xdotool("search --name cubes windowfocus key Escape");
+    session.check_changes("shrinking the window", 20_000, |s| {
+        s.xdotool("search --name grid windowsize 900 500");
+    });
+    session.xdotool("search --name grid windowsize 1 1");
+    session.check_changes("enlarging the window", 20_000, |s| {
+        s.xdotool("search --name grid windowsize 1280 780");
+    });
+    session.xdotool("search --name grid windowfocus key Escape key Escape");
+    session.check_closes();
+}
+
+#[test]
+fn a_scene_is_shown_as_it_is() {
+    let Some(session) = Session::start("cubes", &[], &[]) else { return };
+    session.check_changes("turning", 20_000, |s| s.drag(1, [500, 400], [620, 360]));
+    session.check_changes("exploding", 20_000, |s| s.drag(1, [1020, 81], [1050, 81]));
+    session.xdotool("mousemove 600 500 key Escape");
     session.check_closes();
 }
 
 #[test]
 fn without_a_display_the_error_says_so() {
-    let output =
-        Command::new(example()).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").output().unwrap();
+    let run = Command::new(example("cubes")).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").output();
+    let output = run.unwrap();
     assert!(!output.status.success());
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(message.contains("NoDisplay"), "{message}");

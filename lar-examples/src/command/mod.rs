@@ -6,8 +6,9 @@
 //!           [--threads N]
 //! lar boolean EXPR INPUT... -o OUT [--json PATH|-] [--fill RULE] [--keep-fragments] [--as-given | --tolerance LENGTH]
 //!           [--threads N]
-//! lar render INPUT... -o OUT.png [--explode S | SX,SY,SZ] [--alpha A] [--size WxH] [--cells all|solid]
-//! lar view INPUT... [--explode S | SX,SY,SZ] [--alpha A] [--cells all|solid]
+//! lar render INPUT... -o OUT.png [--explode S | SX,SY,SZ] [--alpha A] [--size WxH] [--cells all|solid] [CAMERA]
+//! lar view INPUT... [--explode S | SX,SY,SZ] [--alpha A] [--cells all|solid] [CAMERA]
+//!           where CAMERA is --eye X,Y,Z --target X,Y,Z [--up X,Y,Z] and --fov DEGREES | --ortho HEIGHT, in any part
 //! lar info INPUT
 //! lar plane INPUT... [--keep-dangling] [--json PATH|-] [--complex PATH] [-o OUT.svg|.png] [--explode S] [--size WxH]
 //!           [--tolerance T] [--threads N]
@@ -20,12 +21,14 @@
 
 mod arrange;
 mod boolean;
+mod camera;
 mod info;
 mod input;
 mod picture;
 mod plane;
 mod report;
 mod stats;
+mod view;
 
 use crate::{CommandError, program};
 use clap::{Parser, Subcommand};
@@ -45,7 +48,7 @@ enum Command {
     Arrange(arrange::Arrange),
     Boolean(boolean::Boolean),
     Render(picture::Render),
-    View(picture::Window),
+    View(view::Window),
     Info(info::Info),
     Plane(plane::Plane),
 }

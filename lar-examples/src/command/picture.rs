@@ -1,5 +1,6 @@
-//! `lar render` and `lar view`: the cells of the arrangement, exploded and translucent.
+//! `lar render`: the cells of the arrangement, exploded and translucent.
 
+use super::camera::CameraArguments;
 use super::input::Inputs;
 use crate::CommandError;
 use crate::size::Size;
@@ -23,29 +24,22 @@ pub(crate) struct Render {
     size: Size,
     #[command(flatten)]
     look: Look,
-}
-
-/// A window on the inputs' arrangement.
-#[derive(Debug, clap::Args)]
-pub(crate) struct Window {
     #[command(flatten)]
-    inputs: Inputs,
-    #[command(flatten)]
-    look: Look,
+    camera: CameraArguments,
 }
 
 /// How the cells are shown.
 #[derive(Clone, Copy, Debug, clap::Args)]
-struct Look {
+pub(super) struct Look {
     /// Moves each cell away from the middle, by one factor or one for each axis; 1 leaves it in place.
     #[arg(long, value_name = "S | SX,SY,SZ", default_value = "1", allow_hyphen_values = true)]
-    explode: Explode,
+    pub(super) explode: Explode,
     /// Opacity of the cells, from 0 to 1.
     #[arg(long, value_name = "A", default_value = "0.6", value_parser = alpha, allow_hyphen_values = true)]
-    alpha: f32,
+    pub(super) alpha: f32,
     /// Which cells are shown.
     #[arg(long, value_enum, value_name = "WHICH", default_value_t)]
-    cells: Which,
+    pub(super) cells: Which,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -59,7 +53,7 @@ pub(crate) enum Which {
 
 /// Factors of the explosion.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Explode([f32; 3]);
+pub(super) struct Explode(pub(super) [f32; 3]);
 
 impl FromStr for Explode {
     type Err = &'static str;
@@ -92,14 +86,6 @@ impl Render {
     }
 }
 
-#[cfg(not(feature = "window"))]
-impl Window {
-    #[expect(clippy::unused_self, reason = "the same call with and without the window")]
-    pub(crate) fn run(&self) -> Result<(), CommandError> {
-        Err(CommandError::NotBuilt { feature: "window" })
-    }
-}
-
 #[cfg(feature = "viewer")]
 mod with_viewer {
     use super::{CommandError, Explode, Inputs, Look, Render, Which, Write};
@@ -115,7 +101,11 @@ mod with_viewer {
             check_file(&self.output)?;
             let scene = scene(&self.inputs, self.look)?;
             let (width, height) = (self.size.width, self.size.height);
-            let view = view(&scene, self.look.explode, f64::from(width) / f64::from(height));
+            let (Explode(factors), aspect) = (self.look.explode, f64::from(width) / f64::from(height));
+            let fitted = View::fitted(&scene, factors, aspect);
+            let camera =
+                self.camera.camera(|lens| View { camera: lens, ..fitted }.fit(&scene, aspect).camera)?;
+            let view = View { camera, ..fitted };
             let mut renderer = OffscreenRenderer::new()?;
             renderer.render(&scene, &view, width, height)?.write_png(&self.output)?;
             writeln!(
@@ -126,19 +116,6 @@ mod with_viewer {
             )?;
             Ok(())
         }
-    }
-
-    #[cfg(feature = "window")]
-    impl super::Window {
-        pub(crate) fn run(&self) -> Result<(), CommandError> {
-            let scene = scene(&self.inputs, self.look)?;
-            let view = view(&scene, self.look.explode, 1.6);
-            Ok(lar_viewer::view(scene, view, "lar")?)
-        }
-    }
-
-    fn view(scene: &Scene, Explode(factors): Explode, aspect: f64) -> View {
-        View::fitted(scene, factors, aspect)
     }
 
     fn scene(inputs: &Inputs, look: Look) -> Result<Scene, CommandError> {

@@ -175,6 +175,21 @@ impl Scene {
         })
     }
 
+    /// The points of the drawables that are visible with these looks, in the exploded scene.
+    #[cfg(feature = "window")]
+    pub(crate) fn visible_points<'a>(
+        &'a self,
+        looks: &'a [Appearance],
+        explosion: Explosion,
+    ) -> impl Iterator<Item = [f64; 3]> + 'a {
+        let center = self.center();
+        let visible = self.drawables.iter().zip(looks).filter(|(_, look)| look.visible);
+        visible.flat_map(move |(d, _)| {
+            let moved = self.displacement(d, &explosion, center);
+            d.points_drawn().map(move |p| std::array::from_fn(|k| p[k] + moved[k]))
+        })
+    }
+
     /// For each group its centroid after those of the groups around it, outermost first.
     pub(crate) fn centroid_chains(&self) -> Vec<Vec<[f64; 3]>> {
         (0..self.groups.len()).map(|g| self.centroid_chain(GroupId(g as u32))).collect()

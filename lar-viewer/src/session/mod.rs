@@ -47,6 +47,18 @@ pub struct Highlight {
     pub within: Option<CellRef>,
 }
 
+/// What the drawables of a session are made from. Opaque: only equality counts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shape {
+    pub(crate) pieces: Pieces,
+    numbers: [bool; 4],
+    selected: Option<CellRef>,
+    highlight: Option<Highlight>,
+    measuring: Measuring,
+    replay: Option<Replay>,
+    visibility: Option<Visibility>,
+}
+
 /// What a user asks of a session.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
@@ -248,6 +260,26 @@ impl Session {
             _ => Pieces::Cells,
         };
         self.explode.pieces(self.data.dim()).max(hidden)
+    }
+
+    /// What the drawables are made from: while it stays equal, only looks change.
+    #[must_use]
+    pub fn shape(&self) -> Shape {
+        let faces_alone = self.selected.filter(|c| c.dim < self.data.dim());
+        Shape {
+            pieces: self.pieces(),
+            numbers: self.numbers,
+            selected: faces_alone,
+            highlight: self.highlight.clone(),
+            measuring: self.measuring.clone(),
+            replay: self.replay.clone(),
+            visibility: self.outlines_visible().then(|| self.visibility.clone()),
+        }
+    }
+
+    /// Whether what stands out depends on which units are drawn.
+    fn outlines_visible(&self) -> bool {
+        self.highlight.is_some() || self.selected.is_some() || self.numbers.contains(&true)
     }
 
     /// Does what is asked. What names cells that do not exist changes nothing.

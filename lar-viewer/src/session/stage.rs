@@ -7,7 +7,10 @@
 //! Hiding, colours, selection change appearances only; the stage is built anew when the fineness changes.
 
 use super::{Highlight, Pieces, Session, coloring};
-use crate::{Appearance, CellData, CellRef, Drawable, GroupId, INK, Rgb, Scene, ViewerError, WHITE};
+use crate::{
+    Appearance, CellData, CellRef, Drawable, GroupId, INK, Rgb, Scene, TextStyle, ViewerError, WHITE,
+    push_numbers,
+};
 use lar_core::{Points, TriangleMesh};
 use std::collections::BTreeMap;
 
@@ -181,13 +184,14 @@ impl Stage {
         }
     }
 
-    /// The scene of a session: what stands out first, then all pieces as they look. Drawn in this order, what stands out
+    /// The scene of a session: numbers and what stands out first, then all pieces as they look. Drawn in this order, what stands out
     /// covers the faces that it lies in.
     ///
     /// # Errors
     /// Those of [`Scene::push`].
     pub fn scene(&self, session: &Session) -> Result<Scene, ViewerError> {
         let mut scene = self.ground.clone();
+        push_numbers(&mut scene, self.numbered(session), &TextStyle::default(), true)?;
         for drawable in self.standing_out(session) {
             scene.push(drawable)?;
         }
@@ -195,6 +199,14 @@ impl Stage {
             scene.push(Drawable { appearance: look, ..drawable.clone() })?;
         }
         Ok(scene)
+    }
+
+    /// How all drawables of a scene that was made by [`scene`](Self::scene) look now.
+    #[must_use]
+    pub fn appearances(&self, scene: &Scene, session: &Session) -> Vec<Appearance> {
+        let n_standing_out = scene.drawables().len().saturating_sub(self.drawables.len());
+        let standing_out = scene.drawables().iter().take(n_standing_out).map(Drawable::appearance);
+        standing_out.chain(self.looks(session)).collect()
     }
 
     /// How the pieces look, in the order of the drawables.
@@ -267,6 +279,21 @@ impl Stage {
         found
     }
 
+    /// The cells that carry their numbers, each once: in the first unit that is drawn.
+    fn numbered(&self, session: &Session) -> Vec<(CellRef, [f64; 3], Option<GroupId>)> {
+        let data = session.data();
+        let mut found = Vec::new();
+        for dim in (0..=data.dim()).filter(|&dim| session.numbers()[usize::from(dim)]) {
+            let cells = (0..data.n_cells(dim) as u32).map(|index| CellRef { dim, index });
+            for cell in cells.filter(|&c| session.visibility().shows(c)) {
+                let unit = data.units_of(cell).into_iter().find(|&unit| session.draws(unit));
+                let group = unit.and_then(|unit| Some((unit, *self.groups_of(data, unit, cell).first()?)));
+                found.extend(group.map(|(_, group)| (cell, data.middle(cell), group)));
+            }
+        }
+        found
+    }
+
     fn is_unit(&self, cell: CellRef) -> bool {
         cell.dim == 3 || self.groups.contains_key(&Place { unit: cell, face: None, edge: None })
     }
@@ -298,26 +325,14 @@ impl Stage {
 
     /// The groups in which a cell of a unit is drawn.
     fn groups_of(&self, data: &CellData, unit: CellRef, cell: CellRef) -> Vec<Option<GroupId>> {
+        let by_face = unit.dim == 3 && self.pieces != Pieces::Cells && cell.dim <= 2;
+        let faces =
+            if by_face { data.cells_above(cell, 2).into_iter().map(Some).collect() } else { vec![None] };
+        let edge = (cell.dim == 1 && self.pieces == Pieces::Edges).then_some(cell.index);
+        let places = faces.into_iter().map(|face| Place { unit, face, edge });
+        let found: Vec<_> = places.filter_map(|place| self.groups.get(&place)).map(|&g| Some(g)).collect();
         let whole = self.groups.get(&Place { unit, face: None, edge: None }).copied();
-        let unit_places = self.groups.range(
-            Place { unit, face: None, edge: None }..=Place {
-                unit,
-                face: Some(u32::MAX),
-                edge: Some(u32::MAX),
-            },
-        );
-        let holds = |place: &Place| match (cell.dim, place.face, place.edge) {
-            (2, face, edge) => face == Some(cell.index) && edge.is_none(),
-            (1, _, Some(edge)) => edge == cell.index,
-            (dim, Some(face), None) if dim == 0 || self.pieces != Pieces::Edges => {
-                let closure = data.closure([CellRef { dim: 2, index: face }]);
-                closure[usize::from(dim)].binary_search(&cell.index).is_ok()
-            }
-            _ => false,
-        };
-        let places: Vec<_> =
-            unit_places.filter(|(place, _)| holds(place)).map(|(_, &group)| Some(group)).collect();
-        if places.is_empty() { vec![whole] } else { places }
+        if found.is_empty() { vec![whole] } else { found }
     }
 }
 

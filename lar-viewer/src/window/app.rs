@@ -1,31 +1,62 @@
 //! The event loop's side: one window from its creation to its end.
 
+use super::controls::Controls;
+use super::exhibit::Exploration;
+use super::loader::{Loaded, Loader};
 use super::painter::Painter;
-use crate::{Scene, View, ViewerError};
+use super::subject::Subject;
+use crate::{Camera, Scene, View, ViewerError};
 use std::sync::Arc;
 use std::time::Instant;
 use winit::application::ApplicationHandler;
 use winit::dpi::LogicalSize;
 use winit::event::{StartCause, WindowEvent};
-use winit::event_loop::{ActiveEventLoop, ControlFlow, OwnedDisplayHandle};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, OwnedDisplayHandle};
 use winit::window::{Window, WindowId};
 
 /// Size of a new window, in logical pixels.
-const SIZE: LogicalSize<u32> = LogicalSize::new(1200, 760);
+const SIZE: LogicalSize<u32> = LogicalSize::new(1280, 780);
 
-/// The state of [`super::view`].
+/// Aspect of the picture in a new window, to which a camera that nobody chose is fitted.
+const ASPECT: f64 = 1.1;
+
+/// What a window is opened on.
+pub(crate) enum Contents {
+    Scene(Box<(Scene, View)>),
+    Complex(Box<Exploration>),
+}
+
+/// The state of [`super::view`] and [`super::explore`].
 pub(crate) struct App {
-    scene: Arc<Scene>,
-    view: View,
     title: String,
     display: OwnedDisplayHandle,
+    /// The view and the subject, until there is a window to show them in.
+    waiting: Option<(View, Subject)>,
+    loader: Option<Loader>,
     painter: Option<Painter>,
     result: Result<(), ViewerError>,
 }
 
 impl App {
-    pub(crate) fn new(scene: Scene, view: View, title: String, display: OwnedDisplayHandle) -> Self {
-        Self { scene: Arc::new(scene), view, title, display, painter: None, result: Ok(()) }
+    pub(crate) fn new(
+        contents: Contents,
+        title: String,
+        event_loop: &EventLoop<Loaded>,
+    ) -> Result<Self, ViewerError> {
+        let (view, subject, loader) = match contents {
+            Contents::Scene(shown) => (shown.1, Subject::scene(shown.0), None),
+            Contents::Complex(exploration) => {
+                let Exploration { session, queries, source, files, camera, .. } = *exploration;
+                let subject = Subject::complex(session, queries)?;
+                let view = first_view(&subject, camera);
+                let proxy = event_loop.create_proxy();
+                // Without a loop there is no one to tell.
+                let loader = Loader::start(source, files, move |loaded| _ = proxy.send_event(loaded));
+                (view, subject, Some(loader))
+            }
+        };
+        let display = event_loop.owned_display_handle();
+        Ok(Self { title, display, waiting: Some((view, subject)), loader, painter: None, result: Ok(()) })
     }
 
     /// The error that closed the window, if one did.
@@ -33,10 +64,15 @@ impl App {
         self.result
     }
 
-    fn open(&self, event_loop: &ActiveEventLoop) -> Result<Painter, ViewerError> {
+    fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<(), ViewerError> {
+        let Some((view, subject)) = self.waiting.take() else { return Ok(()) };
         let attributes = Window::default_attributes().with_title(self.title.as_str()).with_inner_size(SIZE);
         let window = event_loop.create_window(attributes).map_err(|e| ViewerError::Window(e.to_string()))?;
-        Painter::new(Arc::new(window), &self.display, &self.scene, self.view)
+        let controls = |adapter| Controls::new(view, subject, adapter);
+        let painter = Painter::new(Arc::new(window), &self.display, controls)?;
+        painter.window().request_redraw();
+        self.painter = Some(painter);
+        Ok(())
     }
 
     fn close_on_error(&mut self, event_loop: &ActiveEventLoop, result: Result<(), ViewerError>) {
@@ -45,24 +81,44 @@ impl App {
             event_loop.exit();
         }
     }
+
+    fn redraw(&mut self, event_loop: &ActiveEventLoop) -> Result<(), ViewerError> {
+        let Some(painter) = &mut self.painter else { return Ok(()) };
+        let after = painter.frame()?;
+        if after.close {
+            event_loop.exit();
+        }
+        if let (Some(loader), false) = (&self.loader, after.load.is_empty()) {
+            loader.load(after.load);
+        }
+        if let Some(wake) = after.repaint_in.and_then(|delay| Instant::now().checked_add(delay)) {
+            event_loop.set_control_flow(ControlFlow::WaitUntil(wake));
+        }
+        Ok(())
+    }
 }
 
-impl ApplicationHandler for App {
+fn first_view(subject: &Subject, camera: Option<Camera>) -> View {
+    let view = subject.view(View::default());
+    View { camera: camera.unwrap_or_else(|| subject.fit(&view, ASPECT)), ..view }
+}
+
+impl ApplicationHandler<Loaded> for App {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
-        if self.painter.is_none() {
-            match self.open(event_loop) {
-                Ok(painter) => {
-                    painter.window().request_redraw();
-                    self.painter = Some(painter);
-                }
-                Err(error) => self.close_on_error(event_loop, Err(error)),
-            }
-        }
+        let opened = self.open(event_loop);
+        self.close_on_error(event_loop, opened);
     }
 
     fn new_events(&mut self, event_loop: &ActiveEventLoop, cause: StartCause) {
         if let (StartCause::ResumeTimeReached { .. }, Some(painter)) = (cause, &self.painter) {
             event_loop.set_control_flow(ControlFlow::Wait);
+            painter.window().request_redraw();
+        }
+    }
+
+    fn user_event(&mut self, _: &ActiveEventLoop, (files, result): Loaded) {
+        if let Some(painter) = &mut self.painter {
+            painter.controls().loaded(&files, result);
             painter.window().request_redraw();
         }
     }
@@ -78,16 +134,13 @@ impl ApplicationHandler for App {
                 painter.resize(size.width, size.height);
                 painter.window().request_redraw();
             }
-            WindowEvent::ScaleFactorChanged { .. } => painter.window().request_redraw(),
-            WindowEvent::RedrawRequested => match painter.frame() {
-                Ok(after) if after.close => event_loop.exit(),
-                Ok(after) => {
-                    if let Some(wake) = after.repaint_in.and_then(|delay| Instant::now().checked_add(delay)) {
-                        event_loop.set_control_flow(ControlFlow::WaitUntil(wake));
-                    }
-                }
-                Err(error) => self.close_on_error(event_loop, Err(error)),
-            },
+            WindowEvent::ScaleFactorChanged { .. } | WindowEvent::Occluded(false) => {
+                painter.window().request_redraw();
+            }
+            WindowEvent::RedrawRequested => {
+                let drawn = self.redraw(event_loop);
+                self.close_on_error(event_loop, drawn);
+            }
             _ => {}
         }
     }

@@ -1,262 +1,319 @@
-//! The panel, the mouse and the keys: how input changes a view. Needs no window and no graphics card.
+//! The interface of a window: panels, mouse and keys change a subject and a view. Needs no window and no graphics card.
 
-use crate::{Scene, View};
-use egui::{Key, PointerButton, Rect, Response, Ui};
-use std::sync::Arc;
+use super::exhibit::Exhibit;
+use super::keys::{self, Action};
+use super::navigation::Navigation;
+use super::panels::{self, Capture, Texts, Tools};
+use super::subject::Subject;
+use crate::session::{Command, Relation};
+use crate::{Camera, CellRef, Hit, StandardView, View};
+use egui::{Rect, Response, Ui};
+use glam::DVec3;
+use std::path::PathBuf;
 
-/// Range of the explode sliders.
-const EXPLODE: std::ops::RangeInclusive<f32> = 1.0..=5.0;
-/// Zoom per point of wheel motion, as a power of e: a notch of 50 points is a fifth.
-const ZOOM_PER_POINT: f64 = 0.004;
-/// Width of the panel in points.
-const PANEL_WIDTH: f32 = 250.0;
+/// Widths of the panels in points.
+const TREE_WIDTH: f32 = 210.0;
+const PANEL_WIDTH: f32 = 270.0;
 
-/// The view and what the panel says about it.
-pub(crate) struct Controls {
-    pub(crate) view: View,
-    /// Shown at the foot of the panel: where the last screenshot went, or why not.
-    pub(crate) message: String,
-    scene: Arc<Scene>,
-    adapter: String,
+/// What a click does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Tool {
+    /// Selects a cell.
+    #[default]
+    Select,
+    /// Picks points to measure between.
+    Measure,
+}
+
+/// What a click selects.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum PickAs {
+    /// The vertex, edge, or cell that is seen; the face when cells are not drawn.
+    #[default]
+    Seen,
+    /// A cell of this dimension.
+    Dimension(u8),
+}
+
+impl PickAs {
+    pub(crate) const ALL: [Self; 5] =
+        [Self::Seen, Self::Dimension(3), Self::Dimension(2), Self::Dimension(1), Self::Dimension(0)];
+
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Seen => "anything",
+            Self::Dimension(dim) => ["vertices", "edges", "faces", "cells"][usize::from(dim.min(3))],
+        }
+    }
+}
+
+/// A click on the picture, to be looked up there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Click {
+    /// In points from the upper left corner of the picture.
+    pub(crate) at: [f32; 2],
+    /// Turns about the point instead of selecting.
+    pub(crate) double: bool,
 }
 
 /// What the user asked for in one frame, and where the picture goes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Asked {
     /// Area of the picture, in points.
     pub(crate) area: Rect,
-    pub(crate) screenshot: bool,
+    pub(crate) capture: Option<Capture>,
+    pub(crate) click: Option<Click>,
+    /// Files to show instead.
+    pub(crate) load: Vec<PathBuf>,
     pub(crate) close: bool,
     /// The mouse is dragging the scene or a slider.
     pub(crate) dragging: bool,
 }
 
+/// The state of the interface.
+pub(crate) struct Controls {
+    pub(crate) view: View,
+    pub(crate) subject: Subject,
+    /// Shown below the picture: what was saved, loaded, refused.
+    pub(crate) message: String,
+    navigation: Navigation,
+    tool: Tool,
+    pick_as: PickAs,
+    texts: Texts,
+    help: bool,
+    adapter: String,
+    /// Width by height of the picture.
+    aspect: f64,
+}
+
 impl Controls {
-    pub(crate) fn new(view: View, scene: Arc<Scene>, adapter: String) -> Self {
-        Self { view, message: String::new(), scene, adapter }
+    pub(crate) fn new(view: View, subject: Subject, adapter: String) -> Self {
+        Self {
+            view,
+            subject,
+            message: String::new(),
+            navigation: Navigation::default(),
+            tool: Tool::default(),
+            pick_as: PickAs::default(),
+            texts: Texts::default(),
+            help: false,
+            adapter,
+            aspect: 1.0,
+        }
     }
 
-    /// Lays out panel and picture and applies the input.
+    /// Lays out panels and picture and applies the input.
     pub(crate) fn show(&mut self, ui: &mut Ui, picture: egui::TextureId) -> Asked {
-        let mut fit = false;
-        let mut screenshot = false;
-        egui::Panel::right("controls").exact_size(PANEL_WIDTH).resizable(false).show(ui, |ui| {
-            egui::ScrollArea::vertical().show(ui, |ui| {
-                (fit, screenshot) = self.panel(ui);
+        let mut actions = keys::pressed(ui);
+        let load = ui.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_owned()).collect());
+        let mut capture = self.bars(ui, &mut actions);
+        let commands = self.side_panels(ui);
+        let response = Self::picture(ui, picture);
+        self.aspect = f64::from(response.rect.width().max(1.0) / response.rect.height().max(1.0));
+        self.navigation.mouse(ui, &response, &mut self.view.camera);
+        self.subject.apply(commands);
+        let mut close = false;
+        for action in actions {
+            match action {
+                Action::Screenshot => capture = Some(Capture::Screenshot),
+                Action::Leave => close = !self.leave(),
+                action => self.act(action),
+            }
+        }
+        panels::help(ui, &mut self.help);
+        if capture == Some(Capture::Camera) {
+            let arguments = self.view.camera.arguments();
+            self.message = format!("copied: {arguments}");
+            ui.ctx().copy_text(arguments);
+            capture = None;
+        }
+        if let Err(error) = self.subject.update() {
+            self.message = error.to_string();
+        }
+        self.view = self.subject.view(self.view);
+        let dragging = ui.input(|i| i.pointer.any_down());
+        Asked { area: response.rect, capture, click: click(&response), load, close, dragging }
+    }
+
+    /// The bars above and below.
+    fn bars(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) -> Option<Capture> {
+        let tools =
+            Tools { navigation: self.navigation, projection: self.view.camera.projection, tool: self.tool };
+        let pick_as = self.subject.explored.is_some().then_some(&mut self.pick_as);
+        let top = egui::Panel::top("toolbar").show(ui, |ui| panels::toolbar(ui, tools, pick_as));
+        let (clicked, capture) = top.inner;
+        actions.extend(clicked);
+        egui::Panel::bottom("status").show(ui, |ui| {
+            ui.horizontal(|ui| {
+                ui.label(if self.message.is_empty() { "F1 lists mouse and keys" } else { &self.message });
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.weak(&self.adapter));
             });
         });
+        capture
+    }
+
+    /// The tree to the left, everything else to the right.
+    fn side_panels(&mut self, ui: &mut Ui) -> Vec<Command> {
+        let Some(explored) = &mut self.subject.explored else {
+            let view = &mut self.view;
+            egui::Panel::right("controls").default_size(PANEL_WIDTH).show(ui, |ui| {
+                section(ui, "Explode", true, |ui| panels::explode_plain(ui, view));
+                section(ui, "Show", true, |ui| panels::show_plain(ui, view));
+            });
+            return Vec::new();
+        };
+        let (session, queries, texts) = (&mut explored.session, &*explored.queries, &mut self.texts);
+        let left = egui::Panel::left("tree").default_size(TREE_WIDTH);
+        let mut commands = left.show(ui, |ui| panels::tree(ui, session, texts)).inner;
+        egui::Panel::right("controls").default_size(PANEL_WIDTH).show(ui, |ui| {
+            egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                section(ui, "Selection", true, |ui| commands.extend(panels::inspector(ui, session)));
+                section(ui, "Explode", true, |ui| panels::explode(ui, &mut session.explode));
+                section(ui, "Show", true, |ui| commands.extend(panels::show(ui, session)));
+                section(ui, "Clip plane", false, |ui| panels::section(ui, &mut session.section));
+                section(ui, "Boolean, gift wrapping", true, |ui| {
+                    commands.extend(panels::algebra(ui, session, queries, texts));
+                });
+            });
+        });
+        commands
+    }
+
+    fn picture(ui: &mut Ui, picture: egui::TextureId) -> Response {
         let central = egui::CentralPanel::no_frame().show(ui, |ui| {
             let response = ui.allocate_response(ui.available_size(), egui::Sense::click_and_drag());
             let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
             ui.painter().image(picture, response.rect, whole, egui::Color32::WHITE);
             response
         });
-        let response = central.inner;
-        self.mouse(ui, &response);
-        let typing = ui.ctx().text_edit_focused();
-        let pressed = |key| !typing && ui.input(|i| i.key_pressed(key));
-        if pressed(Key::P) {
-            self.view.camera = self.view.camera.toggle_projection();
-        }
-        if fit || pressed(Key::F) {
-            let aspect = f64::from(response.rect.width().max(1.0) / response.rect.height().max(1.0));
-            self.view = self.view.fit(&self.scene, aspect);
-        }
-        Asked {
-            area: response.rect,
-            screenshot,
-            close: pressed(Key::Escape),
-            dragging: ui.input(|i| i.pointer.any_down()),
-        }
+        central.inner
     }
 
-    /// Returns whether *Fit* and *Screenshot* were clicked.
-    fn panel(&mut self, ui: &mut Ui) -> (bool, bool) {
-        ui.add_space(6.0);
-        ui.heading("Explode");
-        self.explode_sliders(ui);
-        ui.separator();
-        ui.heading("Show");
-        ui.add(egui::Slider::new(&mut self.view.opacity, 0.05..=1.0).text("opacity"));
-        ui.checkbox(&mut self.view.edges, "edges");
-        ui.separator();
-        ui.heading("Camera");
-        let fit = ui.button("Fit (F)").clicked();
-        if ui.button(format!("{:?} (P)", self.view.camera.projection)).clicked() {
-            self.view.camera = self.view.camera.toggle_projection();
-        }
-        ui.separator();
-        let screenshot = ui.button("Screenshot").clicked();
-        if !self.message.is_empty() {
-            ui.label(&self.message);
-        }
-        ui.separator();
-        ui.small("left drag: turn\nright, middle or shift drag: move\nwheel: zoom\nEsc: close");
-        ui.small(&self.adapter);
-        (fit, screenshot)
-    }
-
-    fn explode_sliders(&mut self, ui: &mut Ui) {
-        let [x, y, z] = &mut self.view.explode.factors[0];
-        let mut all = (*x + *y + *z) / 3.0;
-        if ui.add(egui::Slider::new(&mut all, EXPLODE).text("all")).changed() {
-            (*x, *y, *z) = (all, all, all);
-        }
-        for (factor, axis) in [(x, "x"), (y, "y"), (z, "z")] {
-            ui.add(egui::Slider::new(factor, EXPLODE).text(axis));
-        }
-    }
-
-    fn mouse(&mut self, ui: &Ui, response: &Response) {
-        let height = f64::from(response.rect.height().max(1.0));
-        let delta = response.drag_delta();
-        let moved = [f64::from(delta.x), f64::from(delta.y)];
+    fn act(&mut self, action: Action) {
+        let fitted = (action == Action::Fit).then(|| self.subject.fit(&self.view, self.aspect));
         let camera = &mut self.view.camera;
-        let shift = ui.input(|i| i.modifiers.shift);
-        let moving =
-            response.dragged_by(PointerButton::Secondary) || response.dragged_by(PointerButton::Middle);
-        if moving || (shift && response.dragged_by(PointerButton::Primary)) {
-            *camera = camera.pan(moved, height);
-        } else if response.dragged_by(PointerButton::Primary) {
-            camera.orientation = camera.orientation.orbit(moved);
-        }
-        if let Some(at) = response.hover_pos() {
-            let wheel = f64::from(ui.input(|i| i.smooth_scroll_delta().y));
-            if wheel != 0.0 {
-                let cursor = at - response.rect.center();
-                let cursor = [f64::from(cursor.x), f64::from(cursor.y)];
-                *camera = camera.zoom((wheel * ZOOM_PER_POINT).exp(), cursor, height);
+        match action {
+            Action::LookFrom(i) => self.navigation.look_from(StandardView::ALL[i], camera),
+            Action::Fit => *camera = fitted.unwrap_or(*camera),
+            Action::Projection => *camera = camera.toggle_projection(),
+            Action::Plane => self.navigation.toggle_plane(camera),
+            Action::Trackball => self.navigation.toggle_trackball(camera),
+            Action::Help => self.help = !self.help,
+            Action::Measure => {
+                self.tool = if self.tool == Tool::Measure { Tool::Select } else { Tool::Measure };
+            }
+            action => {
+                let command = self.command(action);
+                self.subject.apply(command);
             }
         }
     }
+
+    /// What an action asks of the session.
+    fn command(&self, action: Action) -> Option<Command> {
+        let session = &self.subject.explored.as_ref()?.session;
+        let selected = session.selected();
+        let picture = session.replay().map(crate::session::Replay::picture);
+        match action {
+            Action::Layer(dim) => Some(Command::ToggleLayer(dim.min(session.data().dim()))),
+            Action::Hide => Some(Command::Hide(vec![selected?])),
+            Action::Isolate => Some(Command::Isolate(vec![selected?])),
+            Action::ShowAll => Some(Command::ShowAll),
+            Action::Undo => Some(Command::Undo),
+            Action::Redo => Some(Command::Redo),
+            Action::Boundary => Some(Command::Highlight(selected?, Relation::Boundary)),
+            Action::Coboundary => Some(Command::Highlight(selected?, Relation::Coboundary)),
+            Action::Back => Some(Command::Back),
+            Action::Next => Some(Command::GoTo(picture? + 1)),
+            Action::Previous => Some(Command::GoTo(picture?.saturating_sub(1))),
+            _ => None,
+        }
+    }
+
+    /// Leaves the innermost thing that can be left; returns whether there was one.
+    fn leave(&mut self) -> bool {
+        if self.help || self.tool == Tool::Measure {
+            (self.help, self.tool) = (false, Tool::Select);
+            return true;
+        }
+        let Some(session) = self.subject.explored.as_ref().map(|e| &e.session) else { return false };
+        let command = if session.replay().is_some() || session.highlight().is_some() {
+            Command::ClearHighlight
+        } else if session.selected().is_some() {
+            Command::Select(None)
+        } else {
+            return false;
+        };
+        self.subject.apply([command]);
+        true
+    }
+
+    /// Does what a click asks for, now that it is known what it hit.
+    pub(crate) fn clicked(&mut self, click: Click, hit: Option<Hit>) {
+        if click.double {
+            if let Some(hit) = hit {
+                let drawable = &self.subject.scene.drawables()[hit.drawable];
+                let center = self.subject.scene.center();
+                let moved = self.subject.scene.displacement(drawable, &self.view.explode, center);
+                let target = (DVec3::from(hit.point) + DVec3::from(moved)).to_array();
+                self.view.camera = Camera { target, ..self.view.camera };
+            }
+        } else if self.tool == Tool::Measure {
+            let point = hit.map(|hit| self.snapped(&hit));
+            self.subject.apply(point.map(Command::Measure));
+        } else {
+            let picked = hit.and_then(|hit| self.picked(&hit));
+            self.subject.apply([Command::Select(picked)]);
+        }
+        if let Err(error) = self.subject.update() {
+            self.message = error.to_string();
+        }
+    }
+
+    /// The point that was hit, or the vertex that it shows.
+    fn snapped(&self, hit: &Hit) -> [f64; 3] {
+        let vertex = hit.cell.filter(|c| c.dim == 0);
+        let data = self.subject.explored.as_ref().map(|e| e.session.data());
+        data.zip(vertex).and_then(|(data, v)| data.position(v.index)).unwrap_or(hit.point)
+    }
+
+    fn picked(&self, hit: &Hit) -> Option<CellRef> {
+        let session = &self.subject.explored.as_ref()?.session;
+        let layers = session.visibility().layers;
+        let found = [hit.cell, hit.owner].into_iter().flatten();
+        match self.pick_as {
+            PickAs::Dimension(dim) => found.into_iter().find(|c| c.dim == dim),
+            PickAs::Seen => {
+                let through =
+                    |c: &CellRef| c.dim == 2 && session.data().dim() == 3 && layers[3] && !layers[2];
+                hit.cell.filter(|c| !through(c)).or(hit.owner)
+            }
+        }
+    }
+
+    /// Shows what was loaded, or says why not.
+    pub(crate) fn loaded(&mut self, files: &[PathBuf], result: Result<Exhibit, String>) {
+        let names: Vec<String> = files.iter().map(|f| f.display().to_string()).collect();
+        let replaced = result.and_then(|exhibit| self.subject.replace(exhibit).map_err(|e| e.to_string()));
+        self.message = match replaced {
+            Ok(()) => format!("loaded {}", names.join(", ")),
+            Err(error) => error,
+        };
+    }
+}
+
+fn section<R>(ui: &mut Ui, title: &str, open: bool, add: impl FnOnce(&mut Ui) -> R) {
+    egui::CollapsingHeader::new(egui::RichText::new(title).strong())
+        .default_open(open)
+        .show_unindented(ui, add);
+}
+
+/// A click that was no drag, on the picture.
+fn click(response: &Response) -> Option<Click> {
+    let at = response.interact_pointer_pos()? - response.rect.min;
+    let double = response.double_clicked();
+    (double || response.clicked()).then_some(Click { at: [at.x, at.y], double })
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{Drawable, Projection};
-    use egui::{Event, Modifiers, Pos2, RawInput, pos2, vec2};
-
-    /// A panel without a window: events in, view out.
-    struct Session {
-        context: egui::Context,
-        controls: Controls,
-        time: f64,
-    }
-
-    impl Session {
-        fn new() -> Self {
-            let mut scene = Scene::new();
-            scene.push(Drawable::lines("diagonal", [[[0.0; 3], [1.0, 2.0, 3.0]]])).unwrap();
-            let view = View::fitted(&scene, [1.0; 3], 1.5);
-            let controls = Controls::new(view, Arc::new(scene), "test".into());
-            let mut session = Self { context: egui::Context::default(), controls, time: 0.0 };
-            session.frame(vec![]);
-            session
-        }
-
-        fn frame(&mut self, events: Vec<Event>) -> Asked {
-            self.time += 0.05;
-            let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, vec2(1000.0, 600.0)));
-            let input =
-                RawInput { screen_rect, time: Some(self.time), events, focused: true, ..Default::default() };
-            let mut asked = None;
-            let controls = &mut self.controls;
-            let mut output =
-                self.context.run_ui(input, |ui| asked = Some(controls.show(ui, egui::TextureId::User(0))));
-            output.textures_delta.clear();
-            asked.expect("the interface was run")
-        }
-
-        fn drag(&mut self, button: PointerButton, from: Pos2, to: Pos2) {
-            let press =
-                |pos, pressed| Event::PointerButton { pos, button, pressed, modifiers: Modifiers::NONE };
-            self.frame(vec![Event::PointerMoved(from)]);
-            self.frame(vec![press(from, true)]);
-            self.frame(vec![Event::PointerMoved(to)]);
-            self.frame(vec![press(to, false)]);
-        }
-
-        fn key(&mut self, key: Key) -> Asked {
-            let event = |pressed| Event::Key {
-                key,
-                physical_key: None,
-                pressed,
-                repeat: false,
-                modifiers: Modifiers::NONE,
-            };
-            let asked = self.frame(vec![event(true)]);
-            self.frame(vec![event(false)]);
-            asked
-        }
-    }
-
-    #[test]
-    fn left_drag_turns_and_right_drag_moves_by_the_pixels_dragged() {
-        let mut session = Session::new();
-        let before = session.controls.view.camera;
-        session.drag(PointerButton::Primary, pos2(300.0, 300.0), pos2(340.0, 280.0));
-        let turned = session.controls.view.camera;
-        assert_eq!(turned.orientation, before.orientation.orbit([40.0, -20.0]));
-        assert_eq!((turned.target, turned.distance), (before.target, before.distance));
-        session.drag(PointerButton::Secondary, pos2(300.0, 300.0), pos2(340.0, 280.0));
-        assert_eq!(session.controls.view.camera, turned.pan([40.0, -20.0], 600.0));
-    }
-
-    #[test]
-    fn shift_makes_a_left_drag_move() {
-        let mut session = Session::new();
-        let before = session.controls.view.camera;
-        session.frame(vec![Event::ModifiersChanged(Modifiers::SHIFT)]);
-        session.drag(PointerButton::Primary, pos2(300.0, 300.0), pos2(310.0, 305.0));
-        assert_eq!(session.controls.view.camera, before.pan([10.0, 5.0], 600.0));
-    }
-
-    #[test]
-    fn dragging_in_the_panel_leaves_the_camera_alone() {
-        let mut session = Session::new();
-        let before = session.controls.view.camera;
-        session.drag(PointerButton::Primary, pos2(900.0, 500.0), pos2(850.0, 550.0));
-        assert_eq!(session.controls.view.camera, before);
-    }
-
-    #[test]
-    fn the_wheel_zooms_to_the_cursor() {
-        let mut session = Session::new();
-        let before = session.controls.view.camera;
-        session.frame(vec![Event::PointerMoved(pos2(200.0, 100.0))]);
-        session.frame(vec![Event::MouseWheel {
-            unit: egui::MouseWheelUnit::Line,
-            delta: vec2(0.0, 2.0),
-            phase: egui::TouchPhase::Move,
-            modifiers: Modifiers::NONE,
-            source: egui::MouseWheelSource::Wheel,
-        }]);
-        (0..40).for_each(|_| {
-            session.frame(vec![]);
-        });
-        let after = session.controls.view.camera;
-        assert!(after.distance < 0.9 * before.distance, "{} to {}", before.distance, after.distance);
-        assert_ne!(after.target, before.target);
-    }
-
-    #[test]
-    fn keys_fit_switch_projection_and_close() {
-        let mut session = Session::new();
-        let fitted = session.controls.view.fit(&session.controls.scene, 750.0 / 600.0);
-        session.drag(PointerButton::Middle, pos2(100.0, 100.0), pos2(400.0, 300.0));
-        assert!(!session.key(Key::F).close);
-        let camera = session.controls.view.camera;
-        assert!((camera.distance - fitted.camera.distance).abs() < 1e-6 * camera.distance);
-        session.key(Key::P);
-        assert_eq!(session.controls.view.camera.projection, Projection::Orthographic);
-        assert!(session.key(Key::Escape).close);
-    }
-
-    #[test]
-    fn the_picture_takes_what_the_panel_leaves() {
-        let area = Session::new().frame(vec![]).area;
-        assert_eq!(area.height(), 600.0);
-        assert!((720.0..=1000.0 - PANEL_WIDTH).contains(&area.width()), "{area}");
-    }
-}
+mod tests;

@@ -1,0 +1,124 @@
+//! `lar view`: a window on the arrangement of the inputs, to be asked and taken apart.
+
+use super::camera::CameraArguments;
+use super::input::Inputs;
+use super::picture::Look;
+use crate::CommandError;
+
+/// A window on the inputs' arrangement.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Window {
+    #[command(flatten)]
+    inputs: Inputs,
+    #[command(flatten)]
+    look: Look,
+    #[command(flatten)]
+    camera: CameraArguments,
+}
+
+#[cfg(not(feature = "window"))]
+impl Window {
+    #[expect(clippy::unused_self, reason = "the same call with and without the window")]
+    pub(crate) fn run(&self) -> Result<(), CommandError> {
+        Err(CommandError::NotBuilt { feature: "window" })
+    }
+}
+
+#[cfg(feature = "window")]
+mod with_window {
+    use super::{CommandError, Window};
+    use crate::bar::Bar;
+    use crate::command::input::{named, read};
+    use crate::command::picture::{Explode, Which};
+    use crate::exploration::{Explored, cell_data};
+    use lar_arrangement::{Arrangement, Arranger};
+    use lar_viewer::session::{Command, Exterior, Session};
+    use lar_viewer::{Exhibit, Exploration, Source};
+    use std::path::PathBuf;
+
+    impl Window {
+        pub(crate) fn run(&self) -> Result<(), CommandError> {
+            let operands = self.inputs.read()?;
+            let bar = Bar::new();
+            let report = |progress| bar.show(progress);
+            let arrangement = Arranger::new().progress(&report).arrange(&operands.surfaces)?;
+            drop(bar);
+            let session = self.session(&arrangement)?;
+            // Without an eye, the window fits the camera to the size that it has.
+            let camera = self.camera.camera(|lens| lens)?;
+            let names = operands.names().into_iter().map(str::to_owned).collect();
+            let files = operands.files.clone();
+            lar_viewer::explore(Exploration {
+                session,
+                queries: Box::new(Explored::new(arrangement)),
+                source: Box::new(Files { names, files: files.clone() }),
+                files,
+                camera: self.camera.is_placed().then_some(camera),
+                title: "lar".to_owned(),
+            })?;
+            Ok(())
+        }
+
+        fn session(&self, arrangement: &Arrangement) -> Result<Session, CommandError> {
+            let mut session = Session::new(cell_data(arrangement)?);
+            let Explode(factors) = self.look.explode;
+            session.explode.factors = factors;
+            session.opacity = self.look.alpha;
+            if self.look.cells == Which::All {
+                session.apply(Command::ShowAll);
+                if factors != [1.0; 3] {
+                    session.apply(Command::SetExterior(Exterior::Shell));
+                }
+            }
+            Ok(session)
+        }
+    }
+
+    /// Arranges files when they change or are dropped on the window. The first ones keep their names.
+    struct Files {
+        names: Vec<String>,
+        files: Vec<PathBuf>,
+    }
+
+    impl Source for Files {
+        fn load(&self, files: &[PathBuf]) -> Result<Exhibit, String> {
+            self.arranged(files).map_err(|error| error.to_string())
+        }
+    }
+
+    impl Files {
+        fn arranged(&self, files: &[PathBuf]) -> Result<Exhibit, CommandError> {
+            let named = if files == self.files {
+                self.names.iter().cloned().zip(files.iter().cloned()).collect()
+            } else {
+                named(files)?
+            };
+            let surfaces =
+                named.iter().map(|(name, file)| read(name, file)).collect::<Result<Vec<_>, _>>()?;
+            let arrangement = Arranger::new().arrange(&surfaces)?;
+            Ok(Exhibit { data: cell_data(&arrangement)?, queries: Box::new(Explored::new(arrangement)) })
+        }
+    }
+
+    #[cfg(test)]
+    mod tests {
+        use super::*;
+
+        #[test]
+        fn files_keep_their_names_and_bad_ones_are_named() {
+            let dir = tempfile::tempdir().unwrap();
+            let [cube, other] = ["cube.obj", "other.obj"].map(|name| dir.path().join(name));
+            let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+            std::fs::write(&cube, text).unwrap();
+            let files = Files { names: vec!["tip".to_owned()], files: vec![cube.clone()] };
+            assert_eq!(files.load(std::slice::from_ref(&cube)).unwrap().data.solids(), ["tip"]);
+            std::fs::write(&other, text.replace("v 0 0 1", "v 0 0 2")).unwrap();
+            let dropped = files.load(&[cube.clone(), other.clone()]).unwrap();
+            assert_eq!(dropped.data.solids(), ["A", "B"]);
+            assert!(dropped.queries.boolean("B - A").unwrap().entries().len() == 1);
+            std::fs::write(&other, "v 0 0\n").unwrap();
+            let error = files.load(&[other]).unwrap_err();
+            assert!(error.contains("other.obj") && !error.contains('\n'), "{error}");
+        }
+    }
+}

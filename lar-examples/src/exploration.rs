@@ -1,0 +1,145 @@
+//! Arrangements as what a window explores: cells with provenance and triangles, Booleans, gift wrapping.
+
+use crate::CommandError;
+use lar_arrangement::{Arrangement, Expression, FaceSide, FillRule};
+use lar_core::{CellId, Chain, ChainError, FaceId};
+use lar_viewer::session::WrapStep;
+use lar_viewer::{CellData, FaceParent, Provenance, Queries};
+use std::collections::BTreeSet;
+
+/// What a window tells of the cells of an arrangement.
+pub(crate) fn cell_data(arrangement: &Arrangement) -> Result<CellData, CommandError> {
+    let triangles = lar_triangle::triangulate(arrangement.complex())?;
+    let data = CellData::new(arrangement.complex().clone())?;
+    let data = data.with_triangles(triangles.triangles, triangles.face_offsets)?;
+    Ok(data.with_exterior().with_provenance(provenance(arrangement)))
+}
+
+fn provenance(arrangement: &Arrangement) -> Provenance {
+    let n_solids = arrangement.n_solids();
+    let parents = |face: FaceId| {
+        let parents = arrangement.parents(face).iter();
+        parents.map(|p| FaceParent { solid: p.solid, face: p.face, sign: p.sign }).collect()
+    };
+    let solids = |cell: CellId| {
+        let inside = (0..n_solids).filter(|&s| arrangement.winding(cell, s) != 0);
+        inside.map(|s| s as u32).collect()
+    };
+    Provenance {
+        solids: (0..n_solids).map(|s| arrangement.solid_name(s).to_owned()).collect(),
+        parents_of_face: (0..).map(FaceId).take(arrangement.n_faces()).map(parents).collect(),
+        solids_of_cell: (0..).map(CellId).take(arrangement.n_cells()).map(solids).collect(),
+    }
+}
+
+/// An arrangement, to be asked.
+#[derive(Debug)]
+pub(crate) struct Explored {
+    arrangement: Arrangement,
+}
+
+impl Explored {
+    pub(crate) fn new(arrangement: Arrangement) -> Self {
+        Self { arrangement }
+    }
+}
+
+impl Queries for Explored {
+    fn boolean(&self, expression: &str) -> Result<Chain, String> {
+        let names: Vec<&str> =
+            (0..self.arrangement.n_solids()).map(|s| self.arrangement.solid_name(s)).collect();
+        let expression = Expression::parse(expression, &names).map_err(|e| e.to_string())?;
+        let solid = self.arrangement.boolean(&expression, FillRule::NonZero).map_err(|e| e.to_string())?;
+        Ok(solid.chain())
+    }
+
+    /// Shell after shell where a cell has several.
+    fn wrapping(&self, cell: u32) -> Result<Vec<WrapStep>, String> {
+        let column = self.arrangement.complex().boundary(3).outer_view(cell as usize);
+        let faces: Vec<(u32, i8)> =
+            column.iter().flat_map(|c| c.iter()).map(|(face, &sign)| (face as u32, sign)).collect();
+        let (mut steps, mut wrapped) = (Vec::<WrapStep>::new(), BTreeSet::new());
+        // Each round wraps at least the face that it begins with.
+        while let Some(&(face, sign)) = faces.iter().find(|entry| !wrapped.contains(*entry)) {
+            // The cell lies behind the faces whose normals point out of it.
+            let shell = self.arrangement.wrap(FaceSide { face: FaceId(face), back: 0 < sign });
+            let shell_steps = shell.iter().map(|step| self.step(step, &wrapped));
+            steps.extend(shell_steps.collect::<Result<Vec<_>, _>>().map_err(|e| e.to_string())?);
+            wrapped
+                .extend(shell.last().into_iter().flat_map(|s| s.chain.iter().map(|&(f, sign)| (f.0, sign))));
+        }
+        if steps.is_empty() { Err(format!("c{cell} has no faces to wrap")) } else { Ok(steps) }
+    }
+}
+
+impl Explored {
+    /// A step of a shell, with the shells that are wrapped already.
+    fn step(
+        &self,
+        step: &lar_arrangement::WrapStep,
+        wrapped: &BTreeSet<(u32, i8)>,
+    ) -> Result<WrapStep, ChainError> {
+        let complex = self.arrangement.complex();
+        let own = step.chain.iter().map(|&(face, sign)| (face.0, sign));
+        let chain = own.chain(wrapped.iter().copied()).map(|(face, sign)| (face, i32::from(sign)));
+        let boundary = step.boundary.iter().map(|&(edge, sign)| (edge.0, i32::from(sign)));
+        let corolla = step.corolla.iter().map(|side| (side.face.0, if side.back { 1 } else { -1 }));
+        Ok(WrapStep {
+            chain: complex.chain(2, chain)?,
+            boundary: complex.chain(1, boundary)?,
+            corolla: complex.chain(2, corolla)?,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenes;
+    use lar_viewer::CellRef;
+
+    fn three_cubes() -> Arrangement {
+        let surfaces = scenes::surfaces(&scenes::three_cubes()).unwrap();
+        lar_arrangement::arrange(&surfaces).unwrap()
+    }
+
+    #[test]
+    fn cells_know_their_solids_and_faces_their_parents() {
+        let data = cell_data(&three_cubes()).unwrap();
+        assert_eq!((data.solids().len(), data.n_cells(3)), (3, 8));
+        assert!(data.is_exterior(CellRef::new(3, 0)) && data.solids_of(CellRef::new(3, 0)).is_empty());
+        for cell in 1..8 {
+            assert!(!data.solids_of(CellRef::new(3, cell)).is_empty(), "c{cell}");
+        }
+        for face in 0..data.n_cells(2) as u32 {
+            assert!(!data.parents(CellRef::new(2, face)).is_empty(), "f{face}");
+            assert!(!data.triangles(face).is_empty(), "f{face}");
+        }
+    }
+
+    #[test]
+    fn wrapping_ends_in_the_boundary_of_the_cell() {
+        let arrangement = three_cubes();
+        let data = cell_data(&arrangement).unwrap();
+        let explored = Explored::new(arrangement);
+        for cell in 0..8 {
+            let steps = explored.wrapping(cell).unwrap();
+            let last = steps.last().unwrap();
+            assert_eq!(last.chain, data.boundary(CellRef::new(3, cell)).unwrap(), "c{cell}");
+            assert!(last.boundary.is_zero() && last.corolla.is_zero());
+            for step in &steps {
+                assert_eq!(step.boundary, data.boundary_of(&step.chain).unwrap());
+            }
+        }
+        assert_eq!(explored.wrapping(8).unwrap_err(), "c8 has no faces to wrap");
+    }
+
+    #[test]
+    fn booleans_are_chains_or_say_what_is_wrong() {
+        let explored = Explored::new(three_cubes());
+        let names: Vec<String> = (0..3).map(|s| explored.arrangement.solid_name(s).to_owned()).collect();
+        let union = explored.boolean(&format!("{:?} | {:?} | {:?}", names[0], names[1], names[2]));
+        assert_eq!(union.unwrap().entries().len(), 7);
+        assert!(explored.boolean("nothing of that name").is_err());
+    }
+}
