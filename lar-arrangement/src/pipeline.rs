@@ -377,13 +377,13 @@ fn assemble(
     shells: &Shells,
     (mut stats, course): (Stats, &Course),
 ) -> Result<Arrangement, Cancelled> {
-    let shells_of_face: Vec<[u32; 2]> = dissolved
-        .old_face
-        .iter()
-        .map(|&f| [0, 1].map(|side| shells.of_side[(2 * f + side) as usize]))
-        .collect();
-    let cells_of_face: Vec<[u32; 2]> =
-        shells_of_face.iter().map(|s| s.map(|shell| shells.cell_of[shell as usize])).collect();
+    let shells_of_face = parallel::map(dissolved.old_face.len(), |face| {
+        let old = dissolved.old_face[face];
+        [0, 1].map(|side| shells.of_side[(2 * old + side) as usize])
+    });
+    let cells_of_face = parallel::map(shells_of_face.len(), |face| {
+        shells_of_face[face].map(|shell| shells.cell_of[shell as usize])
+    });
     let (parents, parent_offsets) = parents(&soup, &skeleton, &dissolved);
     let coefficients = std::mem::take(&mut soup.coefficients);
     let mut jumps = Jumps::new();

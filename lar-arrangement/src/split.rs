@@ -3,7 +3,7 @@
 
 use crate::crossing::{Contacts, Segment};
 use crate::interner::Interner;
-use crate::kernel::Along;
+use crate::kernel::{Along, Sign};
 use crate::soup::Soup;
 use lar_core::Cells;
 
@@ -70,25 +70,23 @@ pub(crate) fn offsets(n: usize, sorted: impl Iterator<Item = u32>) -> Vec<u32> {
     offsets
 }
 
+/// The points inside each edge, from its first end to its second.
 fn sorted_along_edges(soup: &Soup, splits: &[(u32, u32)], interner: &Interner) -> Cells {
     let geometry = &soup.geometry;
-    let mut inner = Cells::with_capacity(soup.edges.len(), splits.len());
-    let mut rest = splits;
-    let mut on_edge = Vec::new();
-    for (&ends, edge) in soup.edges.iter().zip(0..) {
-        let n = rest.iter().take_while(|s| s.0 == edge).count();
-        on_edge.clear();
-        on_edge.extend(rest[..n].iter().map(|s| s.1));
-        rest = &rest[n..];
-        if n > 1 {
+    let vertex = |v: u32| &interner.vertices[v as usize];
+    let mut inner: Vec<u32> = splits.iter().map(|s| s.1).collect();
+    let mut rest = inner.as_mut_slice();
+    for same in splits.chunk_by(|a, b| a.0 == b.0) {
+        let (on_edge, after) = rest.split_at_mut(same.len());
+        rest = after;
+        if on_edge.len() > 1 {
+            let ends = soup.edges[same[0].0 as usize];
             let (axis, sign) = geometry.axis_of(&geometry.direction(Along::Edge(ends)));
-            let vertex = |v: u32| &interner.vertices[v as usize];
             on_edge.sort_by(|&a, &b| geometry.cmp_coordinate(vertex(a), vertex(b), axis));
-            if sign == crate::kernel::Sign::Negative {
+            if sign == Sign::Negative {
                 on_edge.reverse();
             }
         }
-        inner.push(&on_edge);
     }
-    inner
+    Cells::from_parts(offsets(soup.edges.len(), splits.iter().map(|s| s.0)), inner)
 }
