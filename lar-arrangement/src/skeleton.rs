@@ -4,6 +4,7 @@
 //! Holds afterwards: vertices are pairwise distinct points, edges pairwise distinct, ∂1∂2 = 0.
 
 use crate::fragment::{FacetParent, Fragments, Groups, Piece, WHOLE};
+use crate::half_edges;
 use crate::interner::Interner;
 use crate::kernel::{Along, Direction, Geometry, Vertex, VertexDef};
 use crate::soup::Soup;
@@ -68,22 +69,36 @@ impl Skeleton {
         let pieces = fragments.iter().flat_map(|part| &part.pieces).map(|piece| piece.ends);
         let between_points = pieces.filter(|ends| ends.iter().all(|&v| v < n_points));
         let input_edges = soup.edges_between(between_points.map(|[a, b]| [a.min(b), a.max(b)]));
-        let ids = FxHashMap::default();
-        let mut builder =
-            Builder { out, soup, cuts, compact, whole, input_edges, ids, done: 0, one_loop: Vec::new() };
+        let ends = |k: usize| fragments.iter().flat_map(|part| &part.pieces).map(move |piece| piece.ends[k]);
+        let (tails, heads): (Vec<u32>, Vec<u32>) = (ends(0).collect(), ends(1).collect());
+        let first_piece = half_edges::first_of_edge(compact.len(), &tails, &heads);
+        let edge_of_first = vec![NOT_SEEN; first_piece.len()];
+        let mut builder = Builder {
+            out,
+            soup,
+            cuts,
+            compact,
+            whole,
+            input_edges,
+            first_piece,
+            edge_of_first,
+            base: 0,
+            done: 0,
+            one_loop: Vec::new(),
+        };
         let mut next = 0;
         for part in &fragments {
-            let mut of_piece = vec![NOT_SEEN; part.pieces.len()];
             for group in 0..part.group_ends.len() {
                 let leader = groups.leaders[next];
                 builder.push_untouched(groups, leader);
                 let first = builder.out.n_faces() as u32;
-                builder.push_group(part, group, &mut of_piece);
+                builder.push_group(part, group);
                 let faces = first..builder.out.n_faces() as u32;
                 let members = groups.members[next].iter();
                 members.for_each(|&f| builder.out.faces_of_facet[f as usize] = faces.clone());
                 next += 1;
             }
+            builder.base += part.pieces.len() as u32;
         }
         builder.push_untouched(groups, n_facets as u32);
         builder.out
@@ -137,8 +152,12 @@ struct Builder<'a> {
     whole: Vec<u32>,
     /// Input edges that pieces may be, by their ends.
     input_edges: FxHashMap<[u32; 2], u32>,
-    /// Edges that are pieces, by their ends.
-    ids: FxHashMap<[u32; 2], u32>,
+    /// Of all pieces of all parts, the first one with the same ends.
+    first_piece: Vec<u32>,
+    /// The edge that each first piece is.
+    edge_of_first: Vec<u32>,
+    /// Number of the first piece of the part at hand.
+    base: u32,
     /// Facets before this one are done.
     done: u32,
     one_loop: Vec<u32>,
@@ -167,14 +186,14 @@ impl Builder<'_> {
         self.done = leader;
     }
 
-    /// The faces of a group, given the half-edges of the part's pieces as far as they are known.
-    fn push_group(&mut self, part: &Fragments, group: usize, of_piece: &mut [u32]) {
+    /// The faces of a group.
+    fn push_group(&mut self, part: &Fragments, group: usize) {
         let begin = |ends: &[u32], i: usize| if i == 0 { 0 } else { ends[i - 1] as usize };
         for face in begin(&part.group_ends, group)..part.group_ends[group] as usize {
             for l in begin(&part.face_ends, face)..part.face_ends[face] as usize {
                 for &h in &part.half_edges[begin(&part.loop_ends, l)..part.loop_ends[l] as usize] {
                     let half_edge = match h & WHOLE {
-                        0 => self.of_piece(part, h, of_piece),
+                        0 => self.half_edge(part, h / 2) ^ (h % 2),
                         _ => 2 * self.whole_edge((h ^ WHOLE) / 2) + h % 2,
                     };
                     self.one_loop.push(half_edge);
@@ -183,14 +202,6 @@ impl Builder<'_> {
             }
             self.close_face(&part.parents[begin(&part.parent_ends, face)..part.parent_ends[face] as usize]);
         }
-    }
-
-    fn of_piece(&mut self, part: &Fragments, h: u32, of_piece: &mut [u32]) -> u32 {
-        let at = (h / 2) as usize;
-        if of_piece[at] == NOT_SEEN {
-            of_piece[at] = self.half_edge(&part.pieces[at]);
-        }
-        of_piece[at] ^ (h % 2)
     }
 
     fn close_loop(&mut self) {
@@ -217,23 +228,29 @@ impl Builder<'_> {
     }
 
     /// The half-edge of a piece in its direction. A piece with the ends of an unsplit input edge is that edge.
-    fn half_edge(&mut self, piece: &Piece) -> u32 {
+    fn half_edge(&mut self, part: &Fragments, piece: u32) -> u32 {
+        let first = self.first_piece[(self.base + piece) as usize] as usize;
+        let piece = &part.pieces[piece as usize];
         let [a, b] = piece.ends;
-        let ends = [a.min(b), a.max(b)];
-        let input = self.input_edges.get(&ends).copied().filter(|&e| self.cuts.inner[e as usize].is_empty());
-        let id = match (input, self.ids.get(&ends)) {
-            (Some(edge), _) => self.whole_edge(edge),
-            (None, Some(&id)) => id,
-            (None, None) => {
-                let id = self.push_edge(ends.map(|v| self.compact[v as usize]), true);
-                self.out.direction_of[id as usize] = self.out.directions.len() as u32;
-                self.out.directions.push(if a < b { piece.direction } else { piece.direction.opposite() });
-                self.ids.insert(ends, id);
-                id
-            }
-        };
+        if self.edge_of_first[first] == NOT_SEEN {
+            self.edge_of_first[first] = self.edge_of_piece(piece);
+        }
+        let id = self.edge_of_first[first];
         self.out.soft[id as usize] &= piece.soft;
         2 * id + u32::from(a > b)
+    }
+
+    fn edge_of_piece(&mut self, piece: &Piece) -> u32 {
+        let [a, b] = piece.ends;
+        let ends = [a.min(b), a.max(b)];
+        let is_whole = |&edge: &u32| self.cuts.inner[edge as usize].is_empty();
+        if let Some(edge) = self.input_edges.get(&ends).copied().filter(is_whole) {
+            return self.whole_edge(edge);
+        }
+        let id = self.push_edge(ends.map(|v| self.compact[v as usize]), true);
+        self.out.direction_of[id as usize] = self.out.directions.len() as u32;
+        self.out.directions.push(if a < b { piece.direction } else { piece.direction.opposite() });
+        id
     }
 
     fn push_edge(&mut self, ends: [u32; 2], soft: bool) -> u32 {
