@@ -26,6 +26,8 @@ pub struct Arrangement {
     pub(crate) n_shells: u32,
     pub(crate) parents: Vec<Parent>,
     pub(crate) parent_offsets: Vec<u32>,
+    /// Where the parents of the first piece of each face end.
+    pub(crate) crossed_ends: Vec<u32>,
     /// A facet with the plane and orientation of each face.
     pub(crate) facet_of_face: Vec<u32>,
     /// Faces with equal numbers are pieces of one polygon that is meant to be planar.
@@ -174,15 +176,23 @@ impl Arrangement {
         (0..).map(FaceId).zip(&self.cells_of_face).filter(|(_, [front, back])| front == back).map(|(f, _)| f)
     }
 
-    /// The input faces that a face is a piece of, with the sign of its orientation relative to theirs.
+    /// The input faces that a face is a piece of, with the sign of its orientation relative to theirs. A face merged
+    /// of coplanar pieces ([`Merge::Coplanar`](crate::Merge)) has the parents of all of them.
     #[must_use]
     pub fn parents(&self, face: FaceId) -> &[Parent] {
         &self.parents
             [self.parent_offsets[face.index()] as usize..self.parent_offsets[face.index() + 1] as usize]
     }
 
+    /// The input faces that a path across a face passes at one point of it: its parents, or those of one of the pieces
+    /// that it is merged of. The solids crossed, and how, are the same everywhere in a face.
+    #[must_use]
+    pub fn crossed(&self, face: FaceId) -> &[Parent] {
+        &self.parents[self.parent_offsets[face.index()] as usize..self.crossed_ends[face.index()] as usize]
+    }
+
     /// Q for one input surface: rows its faces, columns the faces of the arrangement, entry ±1 where the latter is
-    /// a piece of the former, by relative orientation (Paoluzzi 2019, §4.3).
+    /// a piece of the former, by relative orientation (Paoluzzi 2019, §4.3); or the former of the latter, when it is merged.
     #[must_use]
     pub fn provenance(&self, solid: usize) -> Operator {
         let (mut offsets, mut rows, mut signs) = (vec![0u32], Vec::new(), Vec::new());
@@ -245,7 +255,7 @@ impl Arrangement {
         let mut uses = vec![0i32; self.n_edges()];
         for face in 0..self.n_faces() {
             let odd = self
-                .parents(FaceId(face as u32))
+                .crossed(FaceId(face as u32))
                 .iter()
                 .filter(|p| p.solid as usize == solid && self.is_boundary(p))
                 .count() as i32;

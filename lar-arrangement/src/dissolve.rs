@@ -4,11 +4,17 @@
 //! it, both pieces of the same polygons, the two faces become one. A vertex that is not a corner of the input and
 //! is left with two edges, between the same faces, was the crossing of a soft edge with something: its edges become
 //! one.
+//!
+//! With `Merge::Coplanar` the edges between facets side by side in one plane are soft too. A piece of one disappears
+//! where the two faces at it are in one plane and the same solids cross them in the same way; and a corner of the input
+//! disappears in the middle of the line of two planes.
 
+use crate::fragment::FacetParent;
 use crate::kernel::VertexDef;
 use crate::merge::{self, Faces, Merged, Removal};
 use crate::skeleton::Skeleton;
-use crate::soup::Soup;
+use crate::soup::{Parent, Soup};
+use crate::tiles::Merge;
 use crate::union_find::UnionFind;
 use lar_core::Cells;
 
@@ -18,6 +24,8 @@ pub(crate) struct Dissolved {
     pub merged: Merged,
     /// The first of the old faces that make up each new one.
     pub old_face: Vec<u32>,
+    /// The others, each after its new face, ascending.
+    pub others: Vec<(u32, u32)>,
     /// The new faces around each new edge.
     pub rings: Cells,
 }
@@ -32,13 +40,13 @@ pub(crate) fn unchanged(skeleton: &mut Skeleton, rings: Cells) -> Dissolved {
         loops: std::mem::take(&mut skeleton.loops),
         face_loops: std::mem::replace(&mut skeleton.face_loops, vec![0]),
     };
-    Dissolved { merged, old_face: faces, rings }
+    Dissolved { merged, old_face: faces, others: Vec::new(), rings }
 }
 
 /// Dissolves.
-pub(crate) fn dissolve(skeleton: &Skeleton, rings: &Cells, soup: &Soup) -> Dissolved {
+pub(crate) fn dissolve(skeleton: &Skeleton, rings: &Cells, soup: &Soup, merge: Merge) -> Dissolved {
     let mut removed: Vec<bool> =
-        (0..skeleton.edges.len()).map(|e| is_dissolvable(e, skeleton, rings, soup)).collect();
+        (0..skeleton.edges.len()).map(|e| is_dissolvable(e, skeleton, rings, soup, merge)).collect();
     let faces = Faces { edges: &skeleton.edges, loops: &skeleton.loops, face_loops: &skeleton.face_loops };
     let (mut new_face, mut n_faces) = merged_faces(&removed, rings, skeleton.n_faces());
     if merge::keep_folds(&faces, &mut removed, &new_face, n_faces as usize) {
@@ -49,13 +57,14 @@ pub(crate) fn dissolve(skeleton: &Skeleton, rings: &Cells, soup: &Soup) -> Disso
         let first = &mut old_face[new as usize];
         *first = (*first).min(old);
     }
+    let is_corner = |v: u32| matches!(skeleton.vertices[v as usize].def, VertexDef::Point(_));
     let candidates = skeleton
         .edges
         .iter()
         .zip(&removed)
         .filter(|(_, removed)| **removed)
         .flat_map(|(ends, _)| *ends)
-        .filter(|&v| !matches!(skeleton.vertices[v as usize].def, VertexDef::Point(_)));
+        .filter(|&v| merge == Merge::Coplanar || !is_corner(v));
     let mut vertices = merge::with_two_edges(&skeleton.edges, &removed, candidates);
     // Where a segment lies in a polygon up to a soft edge and leaves it there, it ends inside of the new face.
     let around = |edge: u32| {
@@ -63,16 +72,35 @@ pub(crate) fn dissolve(skeleton: &Skeleton, rings: &Cells, soup: &Soup) -> Disso
         faces.sort_unstable();
         faces
     };
-    vertices.retain(|_, [e, f]| around(*e) == around(*f));
+    let facet = |new: u32| skeleton.facet(old_face[new as usize]);
+    let is_bent = match merge {
+        Merge::Nothing => Vec::new(),
+        Merge::Coplanar => bent_faces(skeleton, soup, &new_face, &old_face),
+    };
+    // Two planes meet in a line; faces that are bent have no plane.
+    let is_straight = |faces: &[u32]| {
+        let bent = faces.iter().any(|&f| is_bent[f as usize]);
+        !bent && faces.iter().any(|&f| !soup.geometry.is_coplanar(facet(faces[0]), facet(f)))
+    };
+    vertices.retain(|v, [e, f]| {
+        let faces = around(*e);
+        faces == around(*f) && (!is_corner(*v) || is_straight(&faces))
+    });
     let removal =
         Removal { edges: &removed, new_face: &new_face, n_new_faces: n_faces as usize, vertices: &vertices };
     let merged = merge::merge(&faces, &removal, |v| skeleton.vertices[v as usize].at);
     let rings = new_rings(rings, &merged, &new_face);
-    Dissolved { merged, old_face, rings }
+    let others = new_face.iter().copied().zip(0..).filter(|&(new, old)| old_face[new as usize] != old);
+    let mut others: Vec<(u32, u32)> = others.collect();
+    others.sort_unstable();
+    Dissolved { merged, old_face, others, rings }
 }
 
-fn is_dissolvable(edge: usize, skeleton: &Skeleton, rings: &Cells, soup: &Soup) -> bool {
+fn is_dissolvable(edge: usize, skeleton: &Skeleton, rings: &Cells, soup: &Soup, merge: Merge) -> bool {
     let &[a, b] = &rings[edge] else { return false };
+    if !skeleton.soft[edge] || (a ^ b) % 2 != 1 {
+        return false;
+    }
     let polygons = |face: u32| {
         let mut all: Vec<(u32, bool)> = skeleton
             .face_parents(face)
@@ -82,7 +110,34 @@ fn is_dissolvable(edge: usize, skeleton: &Skeleton, rings: &Cells, soup: &Soup) 
         all.sort_unstable();
         all
     };
-    skeleton.soft[edge] && (a ^ b) % 2 == 1 && polygons(a / 2) == polygons(b / 2)
+    polygons(a / 2) == polygons(b / 2)
+        || (merge == Merge::Coplanar
+            && soup.is_meant_coplanar(skeleton.facet(a / 2), skeleton.facet(b / 2))
+            && crossed(a / 2, skeleton, soup) == crossed(b / 2, skeleton, soup))
+}
+
+/// The solids that have a face as part of their surface, by what a path across it does to their winding numbers.
+fn crossed(face: u32, skeleton: &Skeleton, soup: &Soup) -> Vec<(u32, i32)> {
+    let of_facet = |p: &FacetParent| {
+        let turn = if p.same_way { 1 } else { -1 };
+        let coefficient = |p: &Parent| i32::from(soup.coefficients[p.solid as usize][p.face as usize]);
+        let parents = soup.parents(p.facet).iter();
+        parents.map(move |p| (p.solid, turn * i32::from(p.sign) * coefficient(p))).collect::<Vec<_>>()
+    };
+    let mut all: Vec<(u32, i32)> = skeleton.face_parents(face).iter().flat_map(of_facet).collect();
+    all.sort_unstable();
+    all
+}
+
+/// Which new faces are made of old ones in several planes.
+fn bent_faces(skeleton: &Skeleton, soup: &Soup, new_face: &[u32], old_face: &[u32]) -> Vec<bool> {
+    let mut bent = vec![false; old_face.len()];
+    for (&new, old) in new_face.iter().zip(0..) {
+        let first = old_face[new as usize];
+        bent[new as usize] |=
+            first != old && !soup.geometry.is_coplanar(skeleton.facet(first), skeleton.facet(old));
+    }
+    bent
 }
 
 fn merged_faces(removed: &[bool], rings: &Cells, n_faces: usize) -> (Vec<u32>, u32) {

@@ -19,6 +19,7 @@ use crate::soup::{Parent, Placed, Soup};
 use crate::split::Cuts;
 use crate::stars::Stars;
 use crate::stats::Stats;
+use crate::tiles::{self, Merge};
 use crate::union_find::UnionFind;
 use crate::winding::{Jumps, Windings};
 use crate::wrap;
@@ -88,6 +89,7 @@ pub struct Arranger<'a> {
     threads: Option<NonZeroUsize>,
     checks: Checks,
     planes: Planes,
+    merge: Merge,
     control: Control<'a>,
 }
 
@@ -147,6 +149,23 @@ impl<'a> Arranger<'a> {
         self
     }
 
+    /// Decides about faces of one surface that lie side by side in one plane.
+    ///
+    /// ```
+    /// use lar_arrangement::{Arranger, Merge};
+    /// let cube = lar_core::cuboid_grid(&[1, 1, 1]).to_triangle_mesh()?;
+    /// let cube = lar_core::Surface::from_triangles("cube", &cube);
+    /// let merged = Arranger::new().merge(Merge::Coplanar).arrange(&[cube])?;
+    /// assert_eq!((merged.n_edges(), merged.n_faces()), (12, 6));
+    /// assert_eq!(merged.parents(lar_core::FaceId(0)).len(), 2);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn merge(mut self, merge: Merge) -> Self {
+        self.merge = merge;
+        self
+    }
+
     /// Calls `report` as the work goes on: from the threads at work, but never from two at once. The result does not
     /// depend on it.
     ///
@@ -186,6 +205,9 @@ impl<'a> Arranger<'a> {
         let mut stats = Stats::default();
         let course = Course::new(self.control, PLAN);
         let (mut soup, meeting) = self.soup_and_pairs(surfaces, &mut stats, &course)?;
+        if self.merge == Merge::Coplanar {
+            tiles::soften(&mut soup);
+        }
         course.begin("contacts", &mut stats)?;
         let mut contacts = contacts(&soup, &meeting.pairs, &course)?;
         stats.pairs_tested = meeting.pairs.len() as u64;
@@ -217,7 +239,7 @@ impl<'a> Arranger<'a> {
         let (cell_of_shell, n_cells) = nesting.cells(&course)?;
         course.begin("membership", &mut stats)?;
         let dissolved = if skeleton.soft.contains(&true) {
-            dissolve::dissolve(&skeleton, &rings, &soup)
+            dissolve::dissolve(&skeleton, &rings, &soup, self.merge)
         } else {
             dissolve::unchanged(&mut skeleton, rings)
         };
@@ -384,12 +406,13 @@ fn assemble(
     let cells_of_face = parallel::map(shells_of_face.len(), |face| {
         shells_of_face[face].map(|shell| shells.cell_of[shell as usize])
     });
-    let (parents, parent_offsets) = parents(&soup, &skeleton, &dissolved);
+    let Parents { parents, offsets: parent_offsets, crossed: crossed_ends } =
+        Parents::new(&soup, &skeleton, &dissolved);
     let coefficients = std::mem::take(&mut soup.coefficients);
     let mut jumps = Jumps::new();
-    for range in parent_offsets.windows(2) {
+    for (&begin, &end) in parent_offsets.iter().zip(&crossed_ends) {
         let coefficient = |p: &Parent| i32::from(coefficients[p.solid as usize][p.face as usize]);
-        let of_face = parents[range[0] as usize..range[1] as usize].iter();
+        let of_face = parents[begin as usize..end as usize].iter();
         jumps.push_face(of_face.map(|p| (p.solid, coefficient(p) * i32::from(p.sign))));
     }
     let windings = Windings::new(shells.n_cells as usize, surfaces.len(), &cells_of_face, &jumps);
@@ -429,6 +452,7 @@ fn assemble(
         n_shells: shells.n,
         parents,
         parent_offsets,
+        crossed_ends,
         facet_of_face,
         plane_of_face,
         windings,
@@ -444,17 +468,54 @@ fn assemble(
     })
 }
 
-/// Parents of each new face, in terms of input faces.
-fn parents(soup: &Soup, skeleton: &Skeleton, dissolved: &Dissolved) -> (Vec<Parent>, Vec<u32>) {
-    let (mut parents, mut offsets) = (Vec::new(), vec![0]);
-    for &face in &dissolved.old_face {
+/// Parents of the new faces, in terms of input faces.
+struct Parents {
+    parents: Vec<Parent>,
+    /// Those of face f are `offsets[f]..offsets[f + 1]`.
+    offsets: Vec<u32>,
+    /// Those of the first piece of face f end at `crossed[f]`: the ones that a path across it crosses.
+    crossed: Vec<u32>,
+}
+
+impl Parents {
+    fn new(soup: &Soup, skeleton: &Skeleton, dissolved: &Dissolved) -> Self {
+        let mut out = Self { parents: Vec::new(), offsets: vec![0], crossed: Vec::new() };
+        let mut rest = dissolved.others.as_slice();
+        for (&first, new) in dissolved.old_face.iter().zip(0..) {
+            let begin = out.parents.len();
+            out.push_piece(soup, skeleton, first);
+            let end = out.parents.len();
+            out.crossed.push(end as u32);
+            let n = rest.iter().take_while(|piece| piece.0 == new).count();
+            rest[..n].iter().for_each(|piece| out.push_piece(soup, skeleton, piece.1));
+            out.keep_new(begin, end);
+            rest = &rest[n..];
+            out.offsets.push(out.parents.len() as u32);
+        }
+        out
+    }
+
+    fn push_piece(&mut self, soup: &Soup, skeleton: &Skeleton, face: u32) {
         for facet in skeleton.face_parents(face) {
             let turn = if facet.same_way { 1 } else { -1 };
-            parents.extend(soup.parents(facet.facet).iter().map(|p| Parent { sign: p.sign * turn, ..*p }));
+            let turned = |p: &Parent| Parent { sign: p.sign * turn, ..*p };
+            self.parents.extend(soup.parents(facet.facet).iter().map(turned));
         }
-        offsets.push(parents.len() as u32);
     }
-    (parents, offsets)
+
+    /// Of the parents from `end` on keeps each once, in order, that is not between `begin` and `end`.
+    fn keep_new(&mut self, begin: usize, end: usize) {
+        if self.parents.len() == end {
+            return;
+        }
+        let mut more = self.parents.split_off(end);
+        let mut known = self.parents[begin..].to_vec();
+        known.sort_unstable();
+        more.sort_unstable();
+        more.dedup();
+        more.retain(|p| known.binary_search(p).is_err());
+        self.parents.append(&mut more);
+    }
 }
 
 fn positions(soup: &Soup, vertices: &[crate::kernel::Vertex]) -> Points {

@@ -5,7 +5,6 @@
 //! planes are equal; a vertex lies on a straight edge when its two edges lie on the same two planes.
 
 use crate::boolean::Solid;
-use crate::kernel::Sign;
 use crate::merge::{self, Faces, Merged, Removal};
 use crate::pipeline::{boundary_1, boundary_2};
 use crate::soup::Parent;
@@ -180,7 +179,7 @@ impl<'a> OutwardFaces<'a> {
         }
         let [f, g] = [f, g].map(|i| a.facet_of_face[i.index()]);
         let same_way = a.geometry.same_way(f, g) == (f_sign == g_sign);
-        same_way && a.geometry.base(g).iter().all(|&p| a.geometry.side_of_point(p, f) == Sign::Zero)
+        same_way && a.geometry.is_coplanar(f, g)
     }
 
     /// Which edges disappear between faces of one plane, and the new number of each face.

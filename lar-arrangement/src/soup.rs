@@ -84,6 +84,9 @@ pub(crate) struct Soup {
     parent_offsets: Vec<u32>,
     /// Whether a polygon is planar, exactly or within the tolerance.
     pub polygon_flat: Vec<bool>,
+    /// The shared plane that each polygon was meant to lie in, whether or not its corners could be put there; empty when
+    /// there are none.
+    pub polygon_plane: Vec<Option<u32>>,
     /// Grid points by their coordinates.
     pub point_ids: PointTable,
     /// The point of each vertex of each surface.
@@ -112,6 +115,7 @@ impl Soup {
             tolerances: &tolerances,
             facets: Facets { offsets: vec![0], ..Facets::default() },
             polygon_flat: Vec::new(),
+            polygon_plane: Vec::new(),
             parents: Vec::new(),
             polygon_ids: FxHashMap::default(),
             degenerate: 0,
@@ -130,7 +134,8 @@ impl Soup {
             }
             coefficients.push((0..surface.n_faces()).map(|f| surface.coefficient(f)).collect());
         }
-        let Builder { geometry, facets, polygon_flat, parents, degenerate, triangulated, bend, .. } = builder;
+        let Builder { geometry, facets, polygon_flat, polygon_plane, parents, .. } = builder;
+        let Builder { degenerate, triangulated, bend, .. } = builder;
         let (edges, directed) = half_edges::edges(geometry.n_points(), &facets.tails, &facets.heads);
         let soft = facets.soft_edges(edges.len(), &directed);
         let facet_edges = Cells::from_parts(facets.offsets, directed);
@@ -147,6 +152,7 @@ impl Soup {
             parents,
             parent_offsets,
             polygon_flat,
+            polygon_plane,
             point_ids,
             point_of,
             tolerances,
@@ -162,6 +168,19 @@ impl Soup {
     /// Whether an edge is only a diagonal inside a nearly planar polygon.
     pub(crate) fn is_soft(&self, edge: u32) -> bool {
         !self.soft.is_empty() && self.soft[edge as usize]
+    }
+
+    /// Makes an edge one that may disappear.
+    pub(crate) fn soften(&mut self, edge: u32) {
+        self.soft.resize(self.edges.len(), false);
+        self.soft[edge as usize] = true;
+    }
+
+    /// Whether two facets were meant to lie in one plane: they do, or they are of one cluster.
+    pub(crate) fn is_meant_coplanar(&self, f: u32, g: u32) -> bool {
+        let plane =
+            |f: u32| self.polygon_plane.get(self.facet_polygon[f as usize] as usize).copied().flatten();
+        (plane(f).is_some() && plane(f) == plane(g)) || self.geometry.is_coplanar(f, g)
     }
 
     pub(crate) fn n_facets(&self) -> usize {
@@ -316,6 +335,7 @@ struct Builder<'a> {
     tolerances: &'a [Tolerance],
     facets: Facets,
     polygon_flat: Vec<bool>,
+    polygon_plane: Vec<Option<u32>>,
     /// Polygon and parent, in the order of the input.
     parents: Vec<(u32, Parent)>,
     polygon_ids: FxHashMap<Vec<u32>, (u32, bool)>,
@@ -371,7 +391,15 @@ impl Builder<'_> {
             return;
         }
         self.polygon_flat.push(true);
+        self.push_meant_plane();
         self.push_parent(polygon, solid, face, true);
+    }
+
+    /// Notes the plane that the newest polygon was meant to lie in.
+    fn push_meant_plane(&mut self) {
+        if !self.geometry.is_on_grid() {
+            self.polygon_plane.push(self.plane);
+        }
     }
 
     fn push_general_face(&mut self, solid: usize, surface: &Surface, face: usize, point_of: &[u32]) {
@@ -399,6 +427,7 @@ impl Builder<'_> {
             return;
         };
         self.polygon_flat.push(flat);
+        self.push_meant_plane();
         self.push_parent(polygon, solid, face, true);
         self.polygon_ids.insert(key, (polygon, reversed));
     }

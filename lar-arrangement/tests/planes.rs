@@ -3,8 +3,13 @@
 mod common;
 
 use common::{Random, arranged, counts, moved, sorted_volumes, surfaces};
-use lar_arrangement::{Arranger, Checks, Planes};
-use lar_core::{Affine, Model, Precision, Struct, Surface, cuboid_grid, r, rotation, t};
+use lar_arrangement::{Arranger, Checks, Merge, Planes};
+use lar_core::{
+    Affine, Model, Precision, Struct, Surface, TriangleMesh, cuboid_grid, r, read_surface, rotation, t,
+    write_mesh,
+};
+use std::fmt::Write as _;
+use std::path::Path;
 
 fn cube() -> Model {
     cuboid_grid(&[1, 1, 1])
@@ -161,5 +166,71 @@ fn moves_are_bounded() {
             let farthest = a.stats().farthest_move;
             assert!(farthest <= bound, "{name}, {digits} digits: moved by {farthest:e}, not {bound:e}");
         }
+    }
+}
+
+/// Every surface written as triangles and read again, each through a file of its own.
+fn reread(input: &[Surface], name: &str, write: impl Fn(&Path, &TriangleMesh)) -> Vec<Surface> {
+    let name = format!("lar-planes-{}-{name}", std::process::id());
+    let path = std::env::temp_dir().join(name);
+    let triangles = |s: &Surface| {
+        write(&path, &common::triangle_mesh(s));
+        read_surface(&path).expect("the file is well formed").surface
+    };
+    let surfaces = input.iter().map(triangles).collect();
+    std::fs::remove_file(&path).expect("the file is there");
+    surfaces
+}
+
+fn six_digits(path: &Path, mesh: &TriangleMesh) {
+    let mut text = String::new();
+    for p in mesh.points.iter() {
+        writeln!(text, "v {:.5e} {:.5e} {:.5e}", p[0], p[1], p[2]).expect("memory");
+    }
+    for t in &mesh.triangles {
+        writeln!(text, "f {} {} {}", t[0] + 1, t[1] + 1, t[2] + 1).expect("memory");
+    }
+    std::fs::write(path, text).expect("a writable directory");
+}
+
+#[track_caller]
+fn check_merged(name: &str, input: &[Surface], expected: [usize; 4]) {
+    let a = Arranger::new().checks(Checks::EveryStage).merge(Merge::Coplanar).arrange(input);
+    let a = a.unwrap_or_else(|e| panic!("{name}: {e}"));
+    assert_eq!(counts(&a), expected, "{name}");
+}
+
+/// Files of triangles have no squares: what lies side by side in one plane is merged.
+#[test]
+fn triangles_through_files() {
+    let random = &mut Random(12);
+    for (name, scene, expected) in rows() {
+        for i in 0..6 {
+            let turn = if i == 0 { t(&[0.0; 3]) } else { random_rotation(random) };
+            let input = moved(&surfaces(&scene), &turn);
+            let stl = reread(&input, "a.stl", |path, mesh| write_mesh(path, mesh).expect("a writable place"));
+            check_merged(&format!("{name}, STL, {i}"), &stl, expected);
+            check_merged(&format!("{name}, OBJ, {i}"), &reread(&input, "a.obj", six_digits), expected);
+        }
+    }
+}
+
+/// Corners inside of merged faces and in the middle of their straight edges disappear; those where a face ends stay.
+#[test]
+fn fine_triangles_merge() {
+    let fine = cuboid_grid(&[3, 4, 2]).boundary().expect("a grid").to_surface("fine").expect("it has faces");
+    let fine = Surface::from_triangles("fine", &common::triangle_mesh(&fine));
+    let cut = common::cuboid([1.0, 1.0, 1.0], [5.0, 2.0, 5.0]);
+    let turn = rotation([1.0, 2.0, 3.0], 0.7).expect("the axis is not zero");
+    for input in [vec![fine.clone(), cut.clone()], moved(&[fine, cut], &turn)] {
+        check_merged("alone", &input[..1], [8, 12, 6, 2]);
+        check_merged("cut", &input, [22, 36, 18, 4]);
+        let a = Arranger::new().merge(Merge::Coplanar).arrange(&input).expect("a valid scene");
+        let all = (0..a.n_faces() as u32).map(lar_core::FaceId);
+        let of_fine = |f: &lar_core::FaceId| a.parents(*f).iter().filter(|p| p.solid == 0).count();
+        assert_eq!(all.clone().map(|f| of_fine(&f)).max(), Some(24), "two triangles a square of 3 × 4");
+        assert!(all.clone().all(|f| a.crossed(f).len() <= 2), "a face of each solid at most");
+        assert_eq!(a.open_edges(0), []);
+        assert_eq!((0..4).map(|c| a.winding(lar_core::CellId(c), 0)).sum::<i32>(), 2);
     }
 }

@@ -1,6 +1,6 @@
 //! Checks of an arrangement against its input and against the laws of chain complexes.
 
-use lar_arrangement::Arrangement;
+use lar_arrangement::{Arrangement, Parent};
 use lar_core::{FaceId, Points, Surface, Violation};
 
 /// Relative difference that is allowed between the area of an input face and the sum of its pieces: rounding in sums
@@ -15,35 +15,104 @@ type Vec3 = [f64; 3];
 
 /// True when each face of the arrangement has a parent, and the vector areas of the pieces of each input face, taken
 /// with their relative signs, add up to its own: within 1e-9 of the area plus what snapping to the grid can change, and
-/// what moved onto canonical planes.
+/// what moved onto canonical planes. Input faces that share a merged face of the arrangement are taken together.
 ///
 /// `surfaces` are those that were arranged. O(size of both).
 #[must_use]
 pub fn parents_ok(arrangement: &Arrangement, surfaces: &[Surface]) -> bool {
     let scale = unit(surfaces);
-    let mut sums: Vec<Vec<Vec3>> = surfaces.iter().map(|s| vec![[0.0; 3]; s.n_faces()]).collect();
-    for face in (0..).map(FaceId).take(arrangement.n_faces()) {
+    let faces = || (0..).map(FaceId).take(arrangement.n_faces());
+    let mut sums = Sums::new(surfaces);
+    for face in faces() {
         let parents = arrangement.parents(face);
+        let Some(numbers) = parents.iter().map(|p| sums.number(p)).collect::<Option<Vec<_>>>() else {
+            return false;
+        };
         if parents.is_empty() {
             return false;
         }
+        if arrangement.crossed(face).len() < parents.len() {
+            for (&a, p) in numbers.iter().zip(parents) {
+                let first = parents.iter().position(|q| q.solid == p.solid).map_or(a, |i| numbers[i]);
+                sums.join(first, a);
+            }
+        }
+    }
+    for face in faces() {
         let loops = arrangement.face_vertices(face);
         let (area, _) = measures(loops, |v| scaled(arrangement.complex().points(), v, scale));
-        for parent in parents {
-            let entry = sums.get_mut(parent.solid as usize).and_then(|s| s.get_mut(parent.face as usize));
-            let Some(sum) = entry else { return false };
-            *sum = std::array::from_fn(|k| sum[k] + f64::from(parent.sign) * area[k]);
+        for parent in arrangement.crossed(face) {
+            let number = sums.number(parent).expect("all were looked up");
+            sums.add(number, -f64::from(parent.sign), area);
         }
     }
     let stats = arrangement.stats();
     let moved = (SNAPPING_STEPS * stats.grid_step + 2.0 * stats.farthest_move) * scale;
-    surfaces.iter().zip(&sums).all(|(surface, sums)| {
-        (0..surface.n_faces()).zip(sums).all(|(f, &sum)| {
+    for (surface, first) in surfaces.iter().zip(sums.firsts.clone()) {
+        for f in 0..surface.n_faces() {
             let (area, perimeter) = measures(surface.face(f), |v| scaled(&surface.points, v, scale));
-            let slack = AREA_TOLERANCE * length(area) + moved * (perimeter + moved);
-            length(sub(area, sum)) <= slack
-        })
-    })
+            sums.add(first + f, 1.0, area);
+            sums.allow(first + f, AREA_TOLERANCE * length(area) + moved * (perimeter + moved));
+        }
+    }
+    sums.are_zero()
+}
+
+/// Sums of vector areas by groups of input faces, which should be zero, and by how much they may not be.
+struct Sums {
+    /// Number of the first face of each surface.
+    firsts: Vec<usize>,
+    /// Another face of its group, or itself for the one that has the sum.
+    group: Vec<usize>,
+    sums: Vec<(Vec3, f64)>,
+}
+
+impl Sums {
+    fn new(surfaces: &[Surface]) -> Self {
+        let mut n = 0;
+        let first = |s: &Surface| {
+            n += s.n_faces();
+            n - s.n_faces()
+        };
+        let firsts = surfaces.iter().map(first).collect();
+        Self { firsts, group: (0..n).collect(), sums: vec![([0.0; 3], 0.0); n] }
+    }
+
+    /// Number of an input face, if there is such a face.
+    fn number(&self, parent: &Parent) -> Option<usize> {
+        let solid = parent.solid as usize;
+        let end = self.firsts.get(solid + 1).copied().unwrap_or(self.group.len());
+        let number = self.firsts.get(solid)? + parent.face as usize;
+        (number < end).then_some(number)
+    }
+
+    fn root(&mut self, mut i: usize) -> usize {
+        while self.group[i] != i {
+            self.group[i] = self.group[self.group[i]];
+            i = self.group[i];
+        }
+        i
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.root(a), self.root(b));
+        self.group[b] = a;
+    }
+
+    fn add(&mut self, number: usize, factor: f64, area: Vec3) {
+        let root = self.root(number);
+        let (sum, _) = &mut self.sums[root];
+        *sum = std::array::from_fn(|k| sum[k] + factor * area[k]);
+    }
+
+    fn allow(&mut self, number: usize, slack: f64) {
+        let root = self.root(number);
+        self.sums[root].1 += slack;
+    }
+
+    fn are_zero(&self) -> bool {
+        self.sums.iter().all(|&(sum, slack)| length(sum) <= slack)
+    }
 }
 
 /// True when ∂p·∂p+1 = 0 for all p.
@@ -101,7 +170,7 @@ fn length(a: Vec3) -> f64 {
 mod tests {
     use super::*;
     use crate::scenes::{random_cubes, surfaces, three_cubes, two_spheres};
-    use lar_arrangement::arrange;
+    use lar_arrangement::{Arranger, Merge, arrange};
     use lar_core::{s, t};
 
     #[test]
@@ -130,6 +199,29 @@ mod tests {
             assert!(parents_ok(&arrangement, &input), "scene {i}");
             assert!(boundary_squared_zero(arrangement.complex()), "scene {i}");
         }
+    }
+
+    #[test]
+    fn merged_faces_add_up_together() {
+        let input: Vec<Surface> = [two_spheres(1, 0.5).unwrap().to_vec(), surfaces_of_triangles()].concat();
+        let arrangement = Arranger::new().merge(Merge::Coplanar).arrange(&input).unwrap();
+        assert!(parents_ok(&arrangement, &input));
+        let mut other = input.clone();
+        let cube = other.last_mut().unwrap();
+        *cube = cube.transformed(&s(&[1.0, 1.0, 1.001])).unwrap();
+        assert!(!parents_ok(&arrangement, &other));
+    }
+
+    /// The three cubes as triangles.
+    fn surfaces_of_triangles() -> Vec<Surface> {
+        let cubes = surfaces(&three_cubes()).unwrap();
+        let triangles = |cube: &Surface| {
+            let model = lar_core::ChainComplex::from_surface(cube).unwrap();
+            let triangles = lar_triangle::triangulate(&model).unwrap();
+            let faces = (0..6).map(|f| (FaceId(f), 1));
+            Surface::from_triangles("cube", &triangles.mesh_of_faces(model.points(), faces).unwrap())
+        };
+        cubes.iter().map(triangles).collect()
     }
 
     #[test]

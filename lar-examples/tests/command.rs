@@ -83,6 +83,21 @@ fn cells_as_files() {
     );
 }
 
+/// Binary STL keeps triangles and 32 bits; the three cubes come back as they were.
+#[test]
+fn cubes_through_files_of_triangles() {
+    let place = Place::with_cubes();
+    for name in ["a", "b", "c"] {
+        let [from, to] = ["obj", "stl"].map(|extension| format!("{name}.{extension}"));
+        done(&place, &["boolean", "A", &from, "-o", &to]);
+    }
+    let args = words("arrange a.stl b.stl c.stl --merge-coplanar --json -");
+    let report: Value = serde_json::from_str(&done(&place, &args).out).expect("a report in JSON");
+    let counts = ["vertices", "edges", "faces", "cells"].map(|name| report[name].as_u64().unwrap());
+    assert_eq!(counts, [49, 88, 47, 8]);
+    assert_eq!(report["parents_ok"], true);
+}
+
 #[test]
 fn boolean_of_the_three_cubes() {
     let place = Place::with_cubes();

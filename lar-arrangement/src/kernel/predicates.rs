@@ -228,6 +228,11 @@ impl Geometry {
         self.exact_turn_about(f, g, d)
     }
 
+    /// Whether two facets lie in one plane.
+    pub(crate) fn is_coplanar(&self, f: u32, g: u32) -> bool {
+        f == g || self.base(g).iter().all(|&p| self.side_of_point(p, f) == Sign::Zero)
+    }
+
     /// For two facets with parallel planes: whether their normals point the same way.
     pub(crate) fn same_way(&self, f: u32, g: u32) -> bool {
         let (axis, up) = self.dominant_axis(f);

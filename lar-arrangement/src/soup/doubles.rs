@@ -93,6 +93,8 @@ pub(super) fn dropped(mut soup: Soup, doubles: &[Double]) -> Soup {
             .extend(of_polygon.map(|p| (new_polygon[taker as usize], Parent { sign: sign * p.sign, ..*p })));
     }
     soup.polygon_flat = (0..n_polygons).filter(|&p| stays[p]).map(|p| soup.polygon_flat[p]).collect();
+    let mut is_staying = stays.iter();
+    soup.polygon_plane.retain(|_| *is_staying.next().expect("a plane a polygon, or none at all"));
     (soup.parents, soup.parent_offsets) = super::by_polygon(soup.polygon_flat.len(), parents);
     let mut kept = Cells::with_capacity(soup.n_facets(), soup.facet_edges.indices().len());
     let staying = soup.facet_edges.iter().zip(&is_double).filter(|(_, is_double)| !**is_double);

@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "every test binary uses a part of it")]
 
 use lar_arrangement::{Arrangement, ArrangementError, Arranger, Checks};
-use lar_core::{Affine, Points, Struct, Surface, cuboid_grid, r, rotation, t};
+use lar_core::{Affine, Points, Struct, Surface, TriangleMesh, cuboid_grid, r, rotation, t};
 use std::f64::consts::TAU;
 
 /// SplitMix64 (Steele, Lea, Flood 2014).
@@ -88,6 +88,15 @@ pub(crate) fn prism(n: u32, radius: f64, turn: f64, z: [f64; 2]) -> Surface {
         out.push_face([&[i, (i + 1) % n, n + (i + 1) % n, n + i][..]], 1);
     }
     out
+}
+
+/// Faces of one convex loop as fans of triangles.
+pub(crate) fn triangle_mesh(s: &Surface) -> TriangleMesh {
+    let fan = |f: usize| {
+        let cycle = s.face(f).next().expect("faces have a loop").to_vec();
+        (1..cycle.len() - 1).map(move |i| [cycle[0], cycle[i], cycle[i + 1]])
+    };
+    TriangleMesh { points: s.points.clone(), triangles: (0..s.n_faces()).flat_map(fan).collect() }
 }
 
 /// All stages checked.

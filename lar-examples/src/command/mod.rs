@@ -3,9 +3,9 @@
 //!
 //! ```text
 //! lar arrange INPUT... [--json PATH|-] [--complex PATH] [--obj DIR] [--stats] [--as-given | --tolerance LENGTH]
-//!           [--threads N]
+//!           [--merge-coplanar] [--threads N]
 //! lar boolean EXPR INPUT... -o OUT [--json PATH|-] [--fill RULE] [--keep-fragments] [--as-given | --tolerance LENGTH]
-//!           [--threads N]
+//!           [--merge-coplanar] [--threads N]
 //! lar render INPUT... -o OUT.png [--explode S | SX,SY,SZ] [--alpha A] [--size WxH] [--cells all|solid] [CAMERA]
 //! lar view INPUT... [--explode S | SX,SY,SZ] [--alpha A] [--cells all|solid] [CAMERA]
 //!           where CAMERA is --eye X,Y,Z --target X,Y,Z [--up X,Y,Z] and --fov DEGREES | --ortho HEIGHT, in any part

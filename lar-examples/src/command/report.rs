@@ -2,7 +2,7 @@
 
 use crate::CommandError;
 use crate::bar::Bar;
-use lar_arrangement::{Arrangement, Arranger, Closure, Planes, Stats};
+use lar_arrangement::{Arrangement, Arranger, Closure, Merge, Planes, Stats};
 use lar_core::{CellId, Surface};
 use serde::{Serialize, Serializer};
 use std::io::Write;
@@ -34,9 +34,16 @@ pub(crate) struct Coplanarity {
     /// Unify nearly coplanar faces of coordinates that are off by up to this length.
     #[arg(long, value_name = "LENGTH", value_parser = tolerance, conflicts_with = "as_given", allow_hyphen_values = true)]
     tolerance: Option<f64>,
+    /// Make faces of one input that lie side by side in one plane one face: the triangles of a square, a square.
+    #[arg(long)]
+    merge_coplanar: bool,
 }
 
 impl Coplanarity {
+    fn merge(self) -> Merge {
+        if self.merge_coplanar { Merge::Coplanar } else { Merge::Nothing }
+    }
+
     fn planes(self) -> Planes {
         match (self.as_given, self.tolerance) {
             (true, _) => Planes::AsGiven,
@@ -60,8 +67,8 @@ pub(crate) fn arrange(
     let start = Instant::now();
     let bar = Bar::new();
     let show = |progress| bar.show(progress);
-    let arranger = Arranger::new().threads(threads.count()).planes(coplanarity.planes()).progress(&show);
-    let arrangement = arranger.arrange(surfaces)?;
+    let arranger = Arranger::new().planes(coplanarity.planes()).merge(coplanarity.merge());
+    let arrangement = arranger.threads(threads.count()).progress(&show).arrange(surfaces)?;
     Ok((arrangement, start.elapsed()))
 }
 
