@@ -171,7 +171,7 @@ fn reloads_keep_the_settings_and_drop_what_is_gone() {
     assert_eq!((next.selected(), next.numbers(), next.explode), (None, session.numbers(), session.explode));
     assert_eq!(next.visibility().layers, session.visibility().layers);
     let kinds: Vec<String> = visible(&next).into_iter().map(|(name, _)| name).collect();
-    assert_eq!(kinds, ["edges", "vertices"], "of a cube without triangles");
+    assert_eq!(kinds, ["face numbers", "edges", "vertices"], "of a cube without triangles");
 }
 
 #[test]

@@ -14,6 +14,7 @@ pub(crate) struct Recording {
     done: usize,
     size: [u32; 2],
     to: To,
+    directory: PathBuf,
 }
 
 enum To {
@@ -24,15 +25,17 @@ enum To {
 
 impl Recording {
     /// A turn as numbered pictures.
-    pub(crate) fn frames(view: &View, size: [u32; 2]) -> Self {
-        let turn = free(|n| frame_name(n, 0));
-        Self { views: view.turntable(FRAMES), done: 0, size, to: To::Frames(turn) }
+    pub(crate) fn frames(view: &View, size: [u32; 2], directory: &Path) -> Self {
+        let turn = free(directory, |n| frame_name(n, 0));
+        let directory = directory.to_owned();
+        Self { views: view.turntable(FRAMES), done: 0, size, to: To::Frames(turn), directory }
     }
 
     /// A turn as one animated picture.
-    pub(crate) fn animation(view: &View, size: [u32; 2]) -> Result<Self, ViewerError> {
+    pub(crate) fn animation(view: &View, size: [u32; 2], directory: &Path) -> Result<Self, ViewerError> {
         let to = To::Animation(Some(Box::new(Animation::new(size, FRAMES, RATE)?)));
-        Ok(Self { views: view.turntable(FRAMES), done: 0, size, to })
+        let directory = directory.to_owned();
+        Ok(Self { views: view.turntable(FRAMES), done: 0, size, to, directory })
     }
 
     /// The next view to be drawn, and the size of its picture.
@@ -43,7 +46,7 @@ impl Recording {
     /// Takes the next picture; returns what to say, and whether this was the last.
     pub(crate) fn push(&mut self, image: &Image) -> Result<(String, bool), ViewerError> {
         match &mut self.to {
-            To::Frames(turn) => image.write_png(frame_name(*turn, self.done))?,
+            To::Frames(turn) => image.write_png(self.directory.join(frame_name(*turn, self.done)))?,
             To::Animation(animation) => animation.iter_mut().try_for_each(|a| a.push(image))?,
         }
         self.done += 1;
@@ -53,8 +56,9 @@ impl Recording {
             To::Frames(turn) => format!("saved {} and on", frame_name(*turn, 0)),
             To::Animation(animation) => {
                 let name = |n| format!("lar-turn-{n}.png");
-                let path = name(free(name));
-                animation.take().map_or(Ok(()), |animation| animation.write_png(&path))?;
+                let path = name(free(&self.directory, name));
+                let to = self.directory.join(&path);
+                animation.take().map_or(Ok(()), |animation| animation.write_png(&to))?;
                 format!("saved {path}")
             }
         };
@@ -63,9 +67,9 @@ impl Recording {
 }
 
 /// Writes a picture under the first free name, which is returned.
-pub(crate) fn screenshot(image: &Image) -> Result<PathBuf, ViewerError> {
+pub(crate) fn screenshot(image: &Image, directory: &Path) -> Result<PathBuf, ViewerError> {
     let name = |n| format!("lar-{n}.png");
-    let path = PathBuf::from(name(free(name)));
+    let path = directory.join(name(free(directory, name)));
     image.write_png(&path)?;
     Ok(path)
 }
@@ -75,6 +79,50 @@ fn frame_name(turn: u32, frame: usize) -> String {
 }
 
 /// The first number whose name is not taken.
-fn free(name: impl Fn(u32) -> String) -> u32 {
-    (1..u32::MAX).find(|&n| !Path::new(&name(n)).exists()).unwrap_or(0)
+fn free(directory: &Path, name: impl Fn(u32) -> String) -> u32 {
+    (1..u32::MAX).find(|&n| !directory.join(name(n)).exists()).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn record(mut recording: Recording) -> String {
+        let image = Image::new(2, 1, [9, 8, 7, 255].repeat(2));
+        loop {
+            let (_, size) = recording.next();
+            assert_eq!(size, [2, 1]);
+            let (message, last) = recording.push(&image).unwrap();
+            if last {
+                return message;
+            }
+        }
+    }
+
+    #[test]
+    fn turns_get_names_that_are_free() {
+        let dir = tempfile::tempdir().unwrap();
+        let (dir, view) = (dir.path(), View::default());
+        let frames = || record(Recording::frames(&view, [2, 1], dir));
+        assert_eq!(frames(), "saved lar-turn-1-0000.png and on");
+        assert_eq!(frames(), "saved lar-turn-2-0000.png and on");
+        let animation = || record(Recording::animation(&view, [2, 1], dir).unwrap());
+        assert_eq!(animation(), "saved lar-turn-1.png");
+        assert_eq!(animation(), "saved lar-turn-2.png");
+        assert_eq!(std::fs::read_dir(dir).unwrap().count(), 2 * FRAMES as usize + 2);
+        let image = Image::new(1, 1, vec![0; 4]);
+        let saved = [(); 2].map(|()| screenshot(&image, dir).unwrap());
+        assert_eq!(saved, ["lar-1.png", "lar-2.png"].map(|name| dir.join(name)));
+    }
+
+    #[test]
+    fn a_turn_ends_where_it_began() {
+        let dir = tempfile::tempdir().unwrap();
+        let view = View::default();
+        let recording = Recording::frames(&view, [2, 1], dir.path());
+        let eyes: Vec<_> = recording.views.iter().map(|v| v.camera.eye()).collect();
+        let step = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt();
+        assert!(step(eyes[0], view.camera.eye()) < 1e-9);
+        assert!((step(eyes[0], eyes[1]) - step(eyes[71], eyes[0])).abs() < 1e-9);
+    }
 }

@@ -12,8 +12,10 @@ use glam::DVec3;
 use std::path::PathBuf;
 
 /// Widths of the panels in points.
-const TREE_WIDTH: f32 = 210.0;
+const TREE_WIDTH: f32 = 230.0;
 const PANEL_WIDTH: f32 = 270.0;
+/// Height of what is known of the selection, in points.
+const SELECTION_HEIGHT: f32 = 300.0;
 
 /// What a click does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -111,6 +113,10 @@ impl Controls {
         let response = Self::picture(ui, picture);
         self.aspect = f64::from(response.rect.width().max(1.0) / response.rect.height().max(1.0));
         self.navigation.mouse(ui, &response, &mut self.view.camera);
+        if !(commands.is_empty() && actions.is_empty()) {
+            // The panels of this frame were drawn before what they ask for is done.
+            ui.ctx().request_repaint();
+        }
         self.subject.apply(commands);
         let mut close = false;
         for action in actions {
@@ -152,7 +158,7 @@ impl Controls {
         capture
     }
 
-    /// The tree to the left, everything else to the right.
+    /// To the left the tree and, below it, what is known of the selection; everything else to the right.
     fn side_panels(&mut self, ui: &mut Ui) -> Vec<Command> {
         let Some(explored) = &mut self.subject.explored else {
             let view = &mut self.view;
@@ -164,10 +170,18 @@ impl Controls {
         };
         let (session, queries, texts) = (&mut explored.session, &*explored.queries, &mut self.texts);
         let left = egui::Panel::left("tree").default_size(TREE_WIDTH);
-        let mut commands = left.show(ui, |ui| panels::tree(ui, session, texts)).inner;
+        let mut commands = Vec::new();
+        left.show(ui, |ui| {
+            let below = egui::Panel::bottom("selection").default_size(SELECTION_HEIGHT).resizable(true);
+            below.show(ui, |ui| {
+                egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                    commands.extend(panels::inspector(ui, session));
+                });
+            });
+            commands.extend(panels::tree(ui, session, texts));
+        });
         egui::Panel::right("controls").default_size(PANEL_WIDTH).show(ui, |ui| {
             egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                section(ui, "Selection", true, |ui| commands.extend(panels::inspector(ui, session)));
                 section(ui, "Explode", true, |ui| panels::explode(ui, &mut session.explode));
                 section(ui, "Show", true, |ui| commands.extend(panels::show(ui, session)));
                 section(ui, "Clip plane", false, |ui| panels::section(ui, &mut session.section));

@@ -8,7 +8,7 @@ use super::surface::{self, Surface};
 use crate::gpu::context::{Context, best_adapter};
 use crate::gpu::renderer::Renderer;
 use crate::{View, ViewerError};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 use winit::event::WindowEvent;
@@ -131,20 +131,28 @@ impl Painter {
             self.look_up(click, size, pixels_per_point)?;
         }
         let view = self.view(pixels_per_point);
-        let (texture, coarse) = self.picture.draw(&view, size, asked.dragging)?;
-        if let Some(texture) = texture {
-            let device = &self.picture.renderer.context.device;
-            let nearest = wgpu::FilterMode::Nearest;
-            self.egui_renderer.update_egui_texture_from_wgpu_texture(device, &texture, nearest, self.shown);
-        }
-        if coarse && !asked.dragging {
-            self.window.request_redraw();
+        if self.recording.is_none() {
+            self.draw(&view, size, asked.dragging)?;
         }
         if asked.capture.is_some() || self.recording.is_some() {
             if let Err(error) = self.save(asked.capture, &view, size) {
                 self.recording = None;
                 self.controls.message = error.to_string();
             }
+            self.window.request_redraw();
+        }
+        Ok(())
+    }
+
+    /// Draws the scene where it has changed; what was drawn coarsely is drawn again when the mouse rests.
+    fn draw(&mut self, view: &View, size: [u32; 2], dragging: bool) -> Result<(), ViewerError> {
+        let (texture, coarse) = self.picture.draw(view, size, dragging)?;
+        if let Some(texture) = texture {
+            let device = &self.picture.renderer.context.device;
+            let nearest = wgpu::FilterMode::Nearest;
+            self.egui_renderer.update_egui_texture_from_wgpu_texture(device, &texture, nearest, self.shown);
+        }
+        if coarse && !dragging {
             self.window.request_redraw();
         }
         Ok(())
@@ -167,13 +175,14 @@ impl Painter {
 
     /// Saves a picture, or begins or goes on with a turn.
     fn save(&mut self, capture: Option<Capture>, view: &View, size: [u32; 2]) -> Result<(), ViewerError> {
+        let here = Path::new("");
         match capture {
             Some(Capture::Screenshot) => {
-                let path = capture::screenshot(&self.picture.read(view, size)?)?;
+                let path = capture::screenshot(&self.picture.read(view, size)?, here)?;
                 self.controls.message = format!("saved {}", path.display());
             }
-            Some(Capture::Frames) => self.recording = Some(Recording::frames(view, size)),
-            Some(Capture::Animation) => self.recording = Some(Recording::animation(view, size)?),
+            Some(Capture::Frames) => self.recording = Some(Recording::frames(view, size, here)),
+            Some(Capture::Animation) => self.recording = Some(Recording::animation(view, size, here)?),
             Some(Capture::Camera) | None => {}
         }
         if let Some(recording) = &mut self.recording {
