@@ -77,6 +77,8 @@ mod validate;
 
 /// Dense matrices, in signatures of this crate.
 pub use nalgebra;
+/// JSON; its errors are inside [`JsonError`] and [`ModelJsonError`].
+pub use serde_json;
 /// Sparse matrices: [`Operator`] is one.
 pub use sprs;
 

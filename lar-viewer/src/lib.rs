@@ -47,6 +47,8 @@ pub use offscreen::{OffscreenRenderer, Prepared};
 pub use orientation::{Orientation, StandardView};
 pub use palette::{Coloring, INK, PALETTE, Rgb, SLATE, WHITE, palette_color};
 pub use pick::Hit;
+/// Encoding of pictures; its error is inside [`ViewerError`].
+pub use png;
 pub use scene::{Appearance, CellRef, Drawable, Explosion, Group, GroupId, LEVELS, Scene};
 pub use text::{
     HorizontalAlign, Label, NUMBER_COLORS, TextStyle, VerticalAlign, push_numbers, text_model, text_segments,
