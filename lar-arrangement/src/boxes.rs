@@ -1,5 +1,6 @@
 //! Broad phase: a tree of boxes over points in Z-order, eight children a node, built in bulk.
 
+use crate::counting::sorted_by_place;
 use crate::parallel;
 use crate::progress::{Cancelled, Course};
 use std::cmp::Ordering;
@@ -56,22 +57,43 @@ impl PartialOrd for Reach {
     }
 }
 
+/// Bits of a place along an axis of the curve.
+const BITS: usize = 20;
+
 /// The order of n boxes along a Z-shaped space-filling curve through their middles.
 pub(crate) fn z_order<const D: usize>(n: usize, box_of: impl Fn(u32) -> Aabb<D> + Sync + Send) -> Vec<u32> {
-    let all = (0..n as u32).fold(Aabb::EMPTY, |all, i| all.joined(&box_of(i)));
+    let (n_chunks, range) = parallel::chunks(n, 1 << 14);
+    let hulls = parallel::map(n_chunks, |chunk| {
+        range(chunk).fold(Aabb::EMPTY, |all, i| all.joined(&box_of(i as u32)))
+    });
+    let all = hulls.iter().fold(Aabb::EMPTY, |all, hull| all.joined(hull));
     let scale: [f64; D] =
         std::array::from_fn(
             |k| {
                 if all.hi[k] > all.lo[k] { 1_048_575.0 / (all.hi[k] - all.lo[k]) } else { 0.0 }
             },
         );
-    let mut keyed = parallel::map(n, |i| {
-        let b = box_of(i as u32);
+    let key = |i: u32| {
+        let b = box_of(i);
         let cell = |k: usize| (((b.lo[k] - all.lo[k]) * 0.5 + (b.hi[k] - all.lo[k]) * 0.5) * scale[k]) as u64;
-        ((0..D).fold(0, |key, k| key | spread(cell(k)) << k), i as u32)
-    });
-    parallel::sort_distinct_by(&mut keyed, Ord::cmp);
-    keyed.into_iter().map(|(_, i)| i).collect()
+        (0..D).fold(0, |key, k| key | spread::<D>(cell(k)) << k)
+    };
+    // The upper half of the key and the number together; what is below decides for few.
+    let upper = parallel::map_light(n, |i| (key(i as u32) >> (D * BITS - 32)) << 32 | i as u64);
+    // First by as many squares as hold a few boxes each.
+    let bits = (n / 4).max(2).ilog2().min(16);
+    let (offsets, mut upper) = sorted_by_place(1 << bits, &upper, |x| (x >> (64 - bits)) as usize);
+    parallel::sort_stretches(&mut upper, &offsets, Ord::cmp);
+    let mut order = parallel::map_light(n, |i| upper[i] as u32);
+    let mut begin = 0;
+    for same in upper.chunk_by(|a, b| a >> 32 == b >> 32) {
+        let end = begin + same.len();
+        if same.len() > 1 {
+            order[begin..end].sort_unstable_by_key(|&i| (key(i), i));
+        }
+        begin = end;
+    }
+    order
 }
 
 /// Number of items in a block.
@@ -179,14 +201,21 @@ impl<const D: usize> BoxTree<D> {
     }
 
     /// A tree with its leaves in a given order. O(n).
-    pub(crate) fn over(items: Vec<u32>, box_of: impl Fn(u32) -> Aabb<D>) -> Self {
-        let mut levels = vec![items.iter().map(|&i| box_of(i)).collect::<Vec<_>>()];
-        while levels.last().is_some_and(|level| level.len() > 1) {
-            let below = levels.last().expect("just seen");
-            levels
-                .push(below.chunks(WIDTH).map(|c| c.iter().fold(Aabb::EMPTY, |a, b| a.joined(b))).collect());
+    pub(crate) fn over(items: Vec<u32>, box_of: impl Fn(u32) -> Aabb<D> + Sync + Send) -> Self {
+        let mut levels = vec![parallel::map_light(items.len(), |i| box_of(items[i]))];
+        while let Some(below) = levels.last().filter(|level| level.len() > 1) {
+            let hull = |c: &[Aabb<D>]| c.iter().fold(Aabb::EMPTY, |a, b| a.joined(b));
+            let level = parallel::map_light(below.len().div_ceil(WIDTH), |i| {
+                hull(&below[i * WIDTH..((i + 1) * WIDTH).min(below.len())])
+            });
+            levels.push(level);
         }
-        let blocks = levels.iter().map(|level| level.chunks(WIDTH).map(Block::new).collect()).collect();
+        let blocks_of = |level: &Vec<Aabb<D>>| {
+            parallel::map_light(level.len().div_ceil(WIDTH), |i| {
+                Block::new(&level[i * WIDTH..((i + 1) * WIDTH).min(level.len())])
+            })
+        };
+        let blocks = levels.iter().map(blocks_of).collect();
         Self { items, blocks, levels, groups: Vec::new(), marks: Vec::new() }
     }
 
@@ -342,13 +371,22 @@ impl<const D: usize> BoxTree<D> {
     }
 }
 
-/// The low 21 bits, two zeros after each.
-fn spread(x: u64) -> u64 {
-    let x = (x | x << 32) & 0x001f_0000_0000_ffff;
-    let x = (x | x << 16) & 0x001f_0000_ff00_00ff;
-    let x = (x | x << 8) & 0x100f_00f0_0f00_f00f;
-    let x = (x | x << 4) & 0x10c3_0c30_c30c_30c3;
-    (x | x << 2) & 0x1249_2492_4924_9249
+/// The low 20 bits, each with D − 1 zeros before it, in the plane or in space.
+fn spread<const D: usize>(x: u64) -> u64 {
+    let halved = |x: u64, shift: u32, mask: u64| (x | x << shift) & mask;
+    if D == 2 {
+        let x = halved(x, 16, 0x0000_ffff_0000_ffff);
+        let x = halved(x, 8, 0x00ff_00ff_00ff_00ff);
+        let x = halved(x, 4, 0x0f0f_0f0f_0f0f_0f0f);
+        let x = halved(x, 2, 0x3333_3333_3333_3333);
+        halved(x, 1, 0x5555_5555_5555_5555)
+    } else {
+        let x = halved(x, 32, 0x001f_0000_0000_ffff);
+        let x = halved(x, 16, 0x001f_0000_ff00_00ff);
+        let x = halved(x, 8, 0x100f_00f0_0f00_f00f);
+        let x = halved(x, 4, 0x10c3_0c30_c30c_30c3);
+        halved(x, 2, 0x1249_2492_4924_9249)
+    }
 }
 
 #[cfg(test)]

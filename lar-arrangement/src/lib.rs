@@ -6,6 +6,7 @@ mod boxes;
 mod canonical;
 mod check;
 mod coplanar;
+mod counting;
 mod crossing;
 mod dissolve;
 mod error;

@@ -426,7 +426,7 @@ fn assemble(
     };
     let n_edges = dissolved.merged.edges.len();
     let (below, (boundary_2, boundary_3)) = parallel::join(
-        || (positions(&soup, &vertices), boundary_1(vertices.len(), &dissolved.merged.edges)),
+        || (positions(&soup, &vertices), boundary_1(vertices.len(), dissolved.merged.edges.clone())),
         || {
             parallel::join(
                 || boundary_2(n_edges, &dissolved.merged),
@@ -528,9 +528,9 @@ fn positions(soup: &Soup, vertices: &[crate::kernel::Vertex]) -> Points {
     Points::from_columns(3, coords)
 }
 
-pub(crate) fn boundary_1(n_vertices: usize, edges: &[[u32; 2]]) -> lar_core::Operator {
+pub(crate) fn boundary_1(n_vertices: usize, edges: Vec<[u32; 2]>) -> lar_core::Operator {
     let signs = [-1, 1].repeat(edges.len());
-    ChainComplex::operator_from_columns(n_vertices, Cells::uniform(2, edges.as_flattened().to_vec()), signs)
+    ChainComplex::operator_from_columns(n_vertices, Cells::uniform(2, edges.into_flattened()), signs)
 }
 
 pub(crate) fn boundary_2(n_edges: usize, faces: &Merged) -> lar_core::Operator {

@@ -229,7 +229,7 @@ impl<'a> OutwardFaces<'a> {
         let tail = |&h: &u32| merged.edges[(h / 2) as usize][(h % 2) as usize];
         let loops = merged.loops.iter().map(|cycle| cycle.iter().map(tail).collect::<Vec<u32>>()).collect();
         let boundaries =
-            vec![boundary_1(positions.len(), &merged.edges), boundary_2(merged.edges.len(), &merged)];
+            vec![boundary_1(positions.len(), merged.edges.clone()), boundary_2(merged.edges.len(), &merged)];
         SolidComplex {
             complex: ChainComplex::new(Points::from_xyz(&positions), boundaries),
             loops,

@@ -138,6 +138,24 @@ impl Subdivision {
         self.cycles_of_face.len()
     }
 
+    /// The half-edges of a cycle.
+    pub(crate) fn cycle(&self, cycle: u32) -> &[u32] {
+        &self.cycles.list[cycle as usize]
+    }
+
+    /// Whether a half-edge has another face on its right. Sides in one face are in one of its cycles: the edge joins
+    /// what is on both its ends.
+    pub(crate) fn is_boundary(&self, half_edge: u32) -> bool {
+        self.cycles.of[half_edge as usize] != self.cycles.of[(half_edge ^ 1) as usize]
+    }
+
+    /// Number of edges with a face on one side and another face on the other.
+    pub(crate) fn n_boundary_edges(&self, face: usize) -> u32 {
+        let cycles = self.cycles_of_face[face].iter();
+        let count = |&c: &u32| self.cycle(c).iter().filter(|&&h| self.is_boundary(h)).count() as u32;
+        cycles.map(count).sum()
+    }
+
     /// The face on the left of a half-edge.
     pub(crate) fn face(&self, half_edge: u32) -> u32 {
         self.face_of[self.cycles.of[half_edge as usize] as usize]

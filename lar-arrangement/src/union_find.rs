@@ -22,6 +22,14 @@ impl UnionFind {
         x
     }
 
+    /// Smallest member of the set of x, without shortening the way to it.
+    pub(crate) fn root(&self, mut x: u32) -> u32 {
+        while self.parent[x as usize] != x {
+            x = self.parent[x as usize];
+        }
+        x
+    }
+
     /// Joins the sets of x and y; true when they were distinct.
     pub(crate) fn union(&mut self, x: u32, y: u32) -> bool {
         let (x, y) = (self.find(x), self.find(y));

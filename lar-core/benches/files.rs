@@ -4,11 +4,12 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use lar_core::{MeshFormat, PolygonMesh, icosphere, parse_segments, parse_surface};
 use std::hint::black_box;
 
-const FORMATS: [(MeshFormat, &str); 5] = [
+const FORMATS: [(MeshFormat, &str); 6] = [
     (MeshFormat::Obj, "ball.obj"),
     (MeshFormat::StlBinary, "ball.stl"),
     (MeshFormat::StlText, "ball_text.stl"),
     (MeshFormat::PlyLittleEndian, "ball.ply"),
+    (MeshFormat::PlyText, "ball_text.ply"),
     (MeshFormat::Off, "ball.off"),
 ];
 

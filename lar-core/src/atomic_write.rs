@@ -64,7 +64,7 @@ fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
 }
 
 fn fill(file: File, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
-    let mut buffer = BufWriter::new(file);
+    let mut buffer = BufWriter::with_capacity(1 << 16, file);
     write(&mut buffer)?;
     buffer.flush()
 }

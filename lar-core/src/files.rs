@@ -7,6 +7,7 @@
 //! Beside the surface a reader says what the coordinates are worth ([`Precision`]) and what was welded
 //! ([`Weld`]).
 
+mod decimal;
 mod error;
 mod format;
 mod gltf;
@@ -17,7 +18,9 @@ mod precision;
 mod seg;
 mod source;
 mod stl;
+mod text;
 mod weld;
+mod words;
 
 pub use error::{MeshFileError, Place, Problem};
 pub use format::{MeshFormat, SurfaceFile, parse_surface, read_surface, write_mesh};
@@ -28,5 +31,9 @@ pub use precision::Precision;
 pub use seg::{parse_segments, read_segments};
 #[cfg(feature = "svg")]
 pub(crate) use source::clip;
+pub(crate) use text::TextWriter;
+#[cfg(feature = "svg")]
+pub(crate) use text::push_number;
 pub use weld::Weld;
 pub(crate) use weld::Welder;
+pub(crate) use words::{Words, words_of};

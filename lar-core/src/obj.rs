@@ -5,7 +5,7 @@ mod write;
 
 pub use read::{ObjGrouping, parse_obj, read_obj};
 pub(crate) use read::{is_utf16, text};
-pub(crate) use write::{write_face, write_number, write_vertices};
+pub(crate) use write::{write_face, write_vertices};
 
 use crate::{FaceId, FileError, VertexId};
 use std::path::PathBuf;

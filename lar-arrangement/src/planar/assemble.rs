@@ -1,5 +1,6 @@
 //! Planar stage 5: the chain complex from edges and faces.
 
+use crate::counting::offsets;
 use crate::grid::Grid;
 use crate::parallel;
 use crate::pipeline::boundary_1;
@@ -18,11 +19,11 @@ pub(crate) fn assemble(
     mut positions: Vec<[f64; 2]>,
     mut edges: Edges,
     subdivision: Subdivision,
-    chains: Chains,
+    mut chains: Chains,
     carriers: Carriers,
     grid: Grid,
 ) -> PlanarArrangement {
-    let mut sources = chains.vertices.clone();
+    let mut sources = std::mem::take(&mut chains.vertices);
     if edges.ends.len() < chains.n_edges() {
         let is_used = edges.number_vertices(positions.len());
         retain(&mut positions, &is_used);
@@ -31,15 +32,16 @@ pub(crate) fn assemble(
     let n_components = subdivision.n_components;
     let points = Points::from_columns(2, positions.into_flattened());
     let faces = Faces::new(&edges.ends, subdivision);
-    let carrier_of = edges.carriers();
-    let Edges { mut ends, edge_at, .. } = edges;
+    let Edges { mut ends, edge_at, runs, run_of: mut carrier_of } = edges;
+    let n_edges = ends.len();
+    carrier_of.iter_mut().for_each(|run| *run = runs[*run as usize].carrier);
     ends.iter_mut().for_each(|ends| ends.sort_unstable());
-    let boundaries = vec![
-        boundary_1(points.len(), &ends),
-        ChainComplex::operator_from_columns(ends.len(), faces.columns, faces.signs),
-    ];
+    let (boundary_1, boundary_2) = parallel::join(
+        || boundary_1(points.len(), ends),
+        || ChainComplex::operator_from_columns(n_edges, faces.columns, faces.signs),
+    );
     PlanarArrangement {
-        complex: ChainComplex::new(points, boundaries),
+        complex: ChainComplex::new(points, vec![boundary_1, boundary_2]),
         loops: faces.loops,
         face_loops: faces.face_loops,
         n_components,
@@ -80,51 +82,6 @@ impl Edges {
     }
 }
 
-/// Loops and columns of ∂2 of some faces, one after the other.
-#[derive(Default)]
-struct Part {
-    half_edges: Vec<u32>,
-    loop_ends: Vec<u32>,
-    face_ends: Vec<u32>,
-    rows: Vec<u32>,
-    column_ends: Vec<u32>,
-    signs: Vec<i8>,
-}
-
-impl Part {
-    /// Half-edges lead along the carrier or back; those of a loop lead from the smaller vertex to the larger or back.
-    fn push_face(
-        &mut self,
-        ends: &[[u32; 2]],
-        subdivision: &Subdivision,
-        face: usize,
-        column: &mut Vec<u32>,
-    ) {
-        let turned = |h: u32| {
-            let [a, b] = ends[(h / 2) as usize];
-            if a < b { h } else { h ^ 1 }
-        };
-        let begin = self.half_edges.len();
-        for &cycle in &subdivision.cycles_of_face[face] {
-            let cycle = &subdivision.cycles.list[cycle as usize];
-            self.half_edges.extend(cycle.iter().map(|&h| turned(h)));
-            self.loop_ends.push(self.half_edges.len() as u32);
-        }
-        self.face_ends.push(self.loop_ends.len() as u32);
-        column.clear();
-        column.extend_from_slice(&self.half_edges[begin..]);
-        column.sort_unstable();
-        for same in column.chunk_by(|a, b| a / 2 == b / 2) {
-            // An edge that stands in the loops in both directions is no boundary.
-            if let [h] = same {
-                self.rows.push(h / 2);
-                self.signs.push(if h % 2 == 0 { 1 } else { -1 });
-            }
-        }
-        self.column_ends.push(self.rows.len() as u32);
-    }
-}
-
 /// The loops of all faces and the columns of ∂2.
 struct Faces {
     loops: Cells,
@@ -133,43 +90,100 @@ struct Faces {
     signs: Vec<i8>,
 }
 
+/// So many faces are filled in at a time.
+const CHUNK: usize = 4096;
+
 impl Faces {
+    /// The lengths of all loops and columns first, then all of them in their places.
     fn new(ends: &[[u32; 2]], subdivision: Subdivision) -> Self {
-        let (n_chunks, range) = parallel::chunks(subdivision.n_faces(), 4096);
-        let mut parts = parallel::map(n_chunks, |chunk| {
-            let (mut part, mut column) = (Part::default(), Vec::new());
-            for face in range(chunk) {
-                part.push_face(ends, &subdivision, face, &mut column);
-            }
-            part
+        let lengths = subdivision.cycles_of_face.indices().iter().map(|&c| subdivision.cycle(c).len() as u32);
+        let loops = offsets(lengths);
+        let face_loops = subdivision.cycles_of_face.offsets();
+        let n_faces = subdivision.n_faces();
+        let sizes = parallel::map_light(n_faces, |face| subdivision.n_boundary_edges(face));
+        let columns = offsets(sizes.into_iter());
+        let mut half_edges = vec![0; loops[loops.len() - 1] as usize];
+        let mut rows = vec![0; columns[n_faces] as usize];
+        let mut signs = vec![0; rows.len()];
+        let (n_chunks, range) = parallel::chunks(n_faces, CHUNK);
+        let begin = |face: usize| loops[face_loops[face] as usize] as usize;
+        let n_half_edges = |chunk| begin(range(chunk).end) - begin(range(chunk).start);
+        let n_rows = |chunk| (columns[range(chunk).end] - columns[range(chunk).start]) as usize;
+        let parts = parallel::cut(&mut half_edges, (0..n_chunks).map(n_half_edges)).into_iter();
+        let parts = parts.zip(parallel::cut(&mut rows, (0..n_chunks).map(n_rows)));
+        let parts = parts.zip(parallel::cut(&mut signs, (0..n_chunks).map(n_rows)));
+        parallel::each(parts.enumerate().collect(), |(chunk, ((half_edges, rows), signs))| {
+            let mut part = Part { half_edges, rows, signs };
+            range(chunk).for_each(|face| {
+                part.push_face(ends, &subdivision, face, (columns[face + 1] - columns[face]) as usize)
+            });
         });
-        drop(subdivision);
-        let face_loops = ends_joined(parts.iter().map(|p| &p.face_ends[..]));
-        let loops = ends_joined(parts.iter().map(|p| &p.loop_ends[..]));
-        let columns = ends_joined(parts.iter().map(|p| &p.column_ends[..]));
-        let mut joined = |field: fn(&mut Part) -> Vec<u32>| {
-            parts.iter_mut().map(field).fold(Vec::new(), |mut all, part| {
-                all.extend(part);
-                all
-            })
-        };
-        let half_edges = joined(|part| std::mem::take(&mut part.half_edges));
-        let rows = joined(|part| std::mem::take(&mut part.rows));
+        let (face_loops, _) = subdivision.cycles_of_face.into_parts();
         Self {
             loops: Cells::from_parts(loops, half_edges),
             face_loops,
             columns: Cells::from_parts(columns, rows),
-            signs: parts.into_iter().flat_map(|part| part.signs).collect(),
+            signs,
         }
     }
 }
 
-/// Offsets from the ends of parts that begin at 0 each.
-fn ends_joined<'a>(parts: impl Iterator<Item = &'a [u32]>) -> Vec<u32> {
-    let mut out = vec![0];
-    for ends in parts {
-        let base = out[out.len() - 1];
-        out.extend(ends.iter().map(|end| base + end));
+/// What is not yet filled in of the loops of some faces and their columns of ∂2.
+struct Part<'a> {
+    half_edges: &'a mut [u32],
+    rows: &'a mut [u32],
+    signs: &'a mut [i8],
+}
+
+impl Part<'_> {
+    /// Half-edges lead along the carrier or back; those of a loop lead from the smaller vertex to the larger or back.
+    fn push_face(&mut self, ends: &[[u32; 2]], subdivision: &Subdivision, face: usize, size: usize) {
+        let turned = |h: u32| {
+            let [a, b] = ends[(h / 2) as usize];
+            if a < b { h } else { h ^ 1 }
+        };
+        let column = take(&mut self.rows, size);
+        let mut next = column.iter_mut();
+        for &cycle in &subdivision.cycles_of_face[face] {
+            let half_edges = subdivision.cycle(cycle);
+            let to = take(&mut self.half_edges, half_edges.len());
+            for (to, &h) in to.iter_mut().zip(half_edges) {
+                *to = turned(h);
+                if subdivision.is_boundary(h)
+                    && let Some(next) = next.next()
+                {
+                    *next = *to;
+                }
+            }
+        }
+        sort(column, 2 * ends.len());
+        let signs = take(&mut self.signs, column.len());
+        for (h, sign) in column.iter_mut().zip(signs) {
+            *sign = if *h % 2 == 0 { 1 } else { -1 };
+            *h /= 2;
+        }
     }
-    out
+}
+
+/// Cuts off the beginning of a slice.
+fn take<'a, T>(rest: &mut &'a mut [T], length: usize) -> &'a mut [T] {
+    let (taken, after) = std::mem::take(rest).split_at_mut(length);
+    *rest = after;
+    taken
+}
+
+/// Sorts distinct numbers below n. Of a large part of them, which only few faces have, it marks each.
+fn sort(numbers: &mut [u32], n: usize) {
+    if numbers.len() < 1024 || numbers.len() < n / 64 {
+        return numbers.sort_unstable();
+    }
+    let mut marks = vec![0u64; n.div_ceil(64)];
+    numbers.iter().for_each(|&x| marks[x as usize / 64] |= 1 << (x % 64));
+    let mut next = numbers.iter_mut();
+    for (mut mark, begin) in marks.into_iter().zip((0u32..).step_by(64)) {
+        while mark != 0 {
+            *next.next().expect("as many numbers as marks") = begin + mark.trailing_zeros();
+            mark &= mark - 1;
+        }
+    }
 }

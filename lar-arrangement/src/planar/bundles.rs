@@ -7,7 +7,7 @@
 use crate::boxes::{BoxTree, NO_GROUP, WIDTH};
 use crate::planar::along::{Along, KEY_ERROR};
 use crate::planar::carriers::Carriers;
-use crate::planar::events::{CROSSING, Event};
+use crate::planar::events::Event;
 use rustc_hash::FxHashMap;
 
 /// Carriers that meet another one in one point are a bundle from this number on.
@@ -114,8 +114,8 @@ pub(crate) fn bundles_at(
     crossings: &[[u32; 2]],
 ) -> Vec<Bundle> {
     let other = |e: &Event| {
-        (e.vertex & CROSSING != 0).then(|| {
-            let [s, t] = crossings[(e.vertex ^ CROSSING) as usize];
+        e.crossing_of_lot().map(|number| {
+            let [s, t] = crossings[number];
             if s == pivot { t } else { s }
         })
     };

@@ -6,6 +6,7 @@
 //! order of integers.
 
 use crate::boxes::{Aabb, z_order};
+use crate::counting::sorted_by_place;
 use crate::kernel::Sign;
 use crate::parallel;
 use crate::planar::input::Drawing;
@@ -43,7 +44,7 @@ pub(crate) struct Carriers {
 
 impl Carriers {
     /// `snapped` are the grid positions of the drawing's points. O(n log n).
-    pub(crate) fn new(drawing: &Drawing, snapped: &[[i64; 2]]) -> Self {
+    pub(crate) fn new(drawing: &Drawing, snapped: Vec<[i64; 2]>) -> Self {
         let (points, point_of) = unify(snapped);
         let segments = parallel::map(drawing.segments.len(), |i| {
             Segment::new(drawing.segments[i].map(|p| point_of[p as usize]), &points)
@@ -99,6 +100,59 @@ pub(crate) fn turn(a: [i64; 2], b: [i64; 2]) -> Sign {
     Sign::from(cross(a, b))
 }
 
+/// The numbers of the segments with a length, by slope and number.
+fn by_slope(segments: &[Segment]) -> Vec<u32> {
+    const BITS: u32 = 31;
+    const FINEST: f64 = (1u64 << 30) as f64;
+    let number = |x: u64| x as u32 & (u32::MAX >> 1);
+    // One of 2^32 sectors of directions, from −2 to 2 in all. Every step rises with the slope.
+    let sector = |slope: f64| {
+        let x = if slope.abs() <= 1.0 { slope } else { 2f64.copysign(slope) - 1.0 / slope };
+        ((x + 2.0) * FINEST) as u64
+    };
+    let mut keyed = Vec::with_capacity(segments.len());
+    let with_length = segments.iter().zip(0..).filter(|(s, _)| !s.slope.is_nan());
+    keyed.extend(with_length.map(|(s, i)| sector(s.slope) << BITS | i));
+    // First by as many sectors as hold a few segments each; the last is that of vertical ones.
+    let bits = (keyed.len() / 4).max(1).ilog2().min(16);
+    let (offsets, mut keyed) = sorted_by_place((1 << bits) + 1, &keyed, |x| (x >> (63 - bits)) as usize);
+    parallel::sort_stretches(&mut keyed, &offsets, Ord::cmp);
+    let mut near = Vec::new();
+    for same in keyed.chunk_by_mut(|a, b| a >> BITS == b >> BITS).filter(|same| same.len() > 1) {
+        near.clear();
+        near.extend(same.iter().map(|&x| (segments[number(x) as usize].slope, x)));
+        parallel::sort_distinct_by(&mut near, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        same.iter_mut().zip(&near).for_each(|(to, &(_, x))| *to = x);
+    }
+    keyed.into_iter().map(number).collect()
+}
+
+/// A sum like y − k x of a slope and coordinates, which may all be off by half a unit in the last place: below 2^-11
+/// for coordinates of 40 bits and slopes of at most 1.
+const OFFSET_ERROR: f64 = 1.0 / 1024.0;
+
+/// Sorts segments whose rounded slopes are equal by exact slope, line, and place along the line.
+fn sort_along_lines(same: &mut [u32], segments: &[Segment], points: &[[i64; 2]]) {
+    let segment = |i: u32| &segments[i as usize];
+    let exactly = |a: u32, b: u32| segment(a).cmp_along_lines(segment(b), points).then(a.cmp(&b));
+    let direction = |i: u32| segment(i).direction(points);
+    if same.windows(2).any(|w| turn(direction(w[0]), direction(w[1])) != Sign::Zero) {
+        return parallel::sort_distinct_by(same, |&a, &b| exactly(a, b));
+    }
+    let slope = segment(same[0]).slope;
+    // How far the line lies to the left.
+    let offset = |i: u32| {
+        let [x, y] = points[segment(i).ends[0] as usize].map(|x| x as f64);
+        if slope.abs() <= 1.0 { y - slope * x } else { slope.signum() * (y / slope - x) }
+    };
+    let mut placed: Vec<(f64, u32)> = same.iter().map(|&i| (offset(i), i)).collect();
+    parallel::sort_distinct_by(&mut placed, |a, b| match a.0 - b.0 {
+        gap if gap.abs() > 2.0 * OFFSET_ERROR => gap.total_cmp(&0.0),
+        _ => exactly(a.1, b.1),
+    });
+    same.iter_mut().zip(placed).for_each(|(to, (_, i))| *to = i);
+}
+
 /// Segments joined to carriers, which are named after their first segments.
 struct Lines {
     /// The first segment of each carrier, ascending.
@@ -114,10 +168,7 @@ struct Lines {
 
 impl Lines {
     fn new(segments: &[Segment], points: &[[i64; 2]]) -> Self {
-        let mut keys = parallel::map(segments.len(), |i| (segments[i].key, i as u32));
-        // A segment without length has no slope; that sorts after all numbers.
-        parallel::sort_distinct_by(&mut keys, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        keys.truncate(keys.partition_point(|(key, _)| !key.is_nan()));
+        let mut keys = by_slope(segments);
         let mut out = Self {
             first: Vec::new(),
             of: (0..segments.len() as u32).collect(),
@@ -126,22 +177,19 @@ impl Lines {
             stops: Vec::new(),
         };
         let mut rank = 0;
-        for same in keys.chunk_by_mut(|a, b| a.0 == b.0) {
-            if let [(_, input)] = *same {
+        let slope = |input: u32| segments[input as usize].slope;
+        for same in keys.chunk_by_mut(|&a, &b| slope(a) == slope(b)) {
+            if let [input] = *same {
                 out.rank[input as usize] = rank;
             } else {
-                parallel::sort_distinct_by(same, |a, b| {
-                    segments[a.1 as usize]
-                        .cmp_along_lines(&segments[b.1 as usize], points)
-                        .then(a.1.cmp(&b.1))
-                });
+                sort_along_lines(same, segments, points);
                 rank = out.push_parallel(same, segments, points, rank);
             }
             rank += 1;
         }
         drop(keys);
         let is_first =
-            |&input: &u32| out.of[input as usize] == input && !segments[input as usize].key.is_nan();
+            |&input: &u32| out.of[input as usize] == input && !segments[input as usize].slope.is_nan();
         out.first = (0..segments.len() as u32).filter(is_first).collect();
         out
     }
@@ -149,15 +197,15 @@ impl Lines {
     /// Segments with equal keys, sorted by slope, line, and place along the line; returns the last one's rank.
     fn push_parallel(
         &mut self,
-        same: &[(f64, u32)],
+        same: &[u32],
         segments: &[Segment],
         points: &[[i64; 2]],
         mut rank: u32,
     ) -> u32 {
-        let segment = |i: usize| &segments[same[i].1 as usize];
+        let segment = |i: usize| &segments[same[i] as usize];
         let mut begin = 0;
         for i in 0..same.len() {
-            let (input, first) = (same[i].1 as usize, same[begin].1 as usize);
+            let (input, first) = (same[i] as usize, same[begin] as usize);
             let [start, end] = segment(i).ends;
             if i > 0 && turn(segment(i - 1).direction(points), segment(i).direction(points)) != Sign::Zero {
                 rank += 1;
@@ -178,26 +226,26 @@ impl Lines {
     }
 
     /// Names the carrier of some segments, and adds the ends of these that lie inside it.
-    fn push_stops(&mut self, members: &[(f64, u32)], segments: &[Segment]) {
+    fn push_stops(&mut self, members: &[u32], segments: &[Segment]) {
         if members.len() < 2 {
             return;
         }
-        let first = members[0].1;
+        let first = members[0];
         let ends = self.ends[first as usize];
-        let all = members.iter().flat_map(|&(_, input)| segments[input as usize].ends);
+        let all = members.iter().flat_map(|&input| segments[input as usize].ends);
         let mut inside: Vec<u32> = all.filter(|p| !ends.contains(p)).collect();
         inside.sort_unstable();
         inside.dedup();
         self.stops.extend(inside.into_iter().map(|p| (first, p)));
-        members.iter().for_each(|&(_, input)| self.of[input as usize] = first);
+        members.iter().for_each(|&input| self.of[input as usize] = first);
     }
 }
 
 /// A segment from its lexicographically smaller end.
 struct Segment {
-    /// dy / dx, correctly rounded, so equal slopes have equal keys and unequal keys order exactly. Not a number for a
+    /// dy / dx, correctly rounded, so equal slopes stay equal and unequal ones keep their order. Not a number for a
     /// segment without length.
-    key: f64,
+    slope: f64,
     ends: [u32; 2],
     reversed: bool,
 }
@@ -207,14 +255,13 @@ impl Segment {
         let [a, b] = ends.map(|p| points[p as usize]);
         let reversed = b < a;
         let (ends, a, b) = if reversed { ([ends[1], ends[0]], b, a) } else { (ends, a, b) };
-        let key = match [b[0] - a[0], b[1] - a[1]] {
-            // With a plus sign: the total order has it after all numbers.
-            [0, 0] => f64::NAN.abs(),
+        let slope = match [b[0] - a[0], b[1] - a[1]] {
+            [0, 0] => f64::NAN,
             [0, _] => f64::INFINITY,
-            // Adding zero makes −0 and 0 one key.
+            // Adding zero makes −0 and 0 one slope.
             [dx, dy] => dy as f64 / dx as f64 + 0.0,
         };
-        Self { key, ends, reversed }
+        Self { slope, ends, reversed }
     }
 
     fn direction(&self, points: &[[i64; 2]]) -> [i64; 2] {

@@ -3,12 +3,14 @@
 //! Two definitions of one point always lie next to each other on some carrier, or are joined by a chain of such
 //! neighbours: all carriers through the point cross each other there. So no search by position is needed.
 
+use crate::counting::{offsets, sorted_by_place};
+use crate::parallel;
 use crate::planar::along::{Along, KEY_ERROR, long_axis};
 use crate::planar::carriers::Carriers;
 use crate::planar::crossings::Crossings;
-use crate::planar::events::{Event, sorted_by_place};
+use crate::planar::events::Event;
+use crate::planar::numbering::Numbering;
 use crate::progress::{Cancelled, Course};
-use crate::union_find::UnionFind;
 
 /// Vertices along carriers.
 #[derive(Debug, Default)]
@@ -26,7 +28,7 @@ pub(crate) struct Chains {
 }
 
 /// No vertex.
-const NO_VERTEX: u32 = u32::MAX;
+pub(super) const NO_VERTEX: u32 = u32::MAX;
 
 /// Where a vertex comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,7 +46,8 @@ impl Chains {
             let n = ranges.carriers(range).len();
             let events: Vec<Event> = lots.iter().flat_map(|lot| lot.of_range(range)).collect();
             let (offsets, mut events) = sorted_by_place(n, &events, |e| e.carrier as usize - first);
-            let mut part = Part::default();
+            let mut part = Part { first_carrier: first as u32, ..Part::default() };
+            part.chain.reserve_exact(events.len() + 2 * n);
             for c in 0..n {
                 let own = &mut events[offsets[c] as usize..offsets[c + 1] as usize];
                 part.push(carriers, &crossings, (first + c) as u32, own);
@@ -52,16 +55,9 @@ impl Chains {
             part
         })?;
         drop(lots);
-        let mut out = Self { offsets: vec![0], ..Self::default() };
-        out.chain.reserve(parts.iter().map(|part| part.chain.len()).sum());
-        let mut same = Vec::new();
-        for part in parts {
-            let base = out.chain.len() as u32;
-            out.offsets.extend(part.ends.iter().map(|end| base + end));
-            out.chain.extend(part.chain);
-            same.extend(part.same);
-        }
-        out.number(carriers.points.len() as u32, &crossings, &same);
+        let lengths = parts.iter().flat_map(Part::lengths);
+        let mut out = Self { offsets: offsets(lengths.collect::<Vec<_>>().into_iter()), ..Self::default() };
+        Numbering::new(carriers, &crossings, parts).finish(&mut out);
         out.find_stretches(carriers);
         Ok(out)
     }
@@ -69,49 +65,25 @@ impl Chains {
     /// Most members are whole carriers; the places of the others are looked up a carrier at a time, all in one pass.
     fn find_stretches(&mut self, carriers: &Carriers) {
         let whole = |c: u32| [self.offsets[c as usize], self.offsets[c as usize + 1] - 1];
-        self.stretches = carriers.members.iter().map(|m| whole(m.carrier)).collect();
-        let is_part =
-            |&i: &usize| carriers.members[i].ends != carriers.ends[carriers.members[i].carrier as usize];
-        let mut parts: Vec<usize> = (0..carriers.members.len()).filter(is_part).collect();
-        parts.sort_by_key(|&i| carriers.members[i].carrier);
+        let members = &carriers.members;
+        self.stretches = parallel::map_light(members.len(), |i| whole(members[i].carrier));
+        if members.len() == carriers.ends.len() {
+            return;
+        }
+        let is_part = |&i: &usize| members[i].ends != carriers.ends[members[i].carrier as usize];
+        let mut parts: Vec<usize> = (0..members.len()).filter(is_part).collect();
+        parts.sort_by_key(|&i| members[i].carrier);
         let mut place_of = vec![0; if parts.is_empty() { 0 } else { self.vertices.len() }];
-        for same in parts.chunk_by(|&i, &j| carriers.members[i].carrier == carriers.members[j].carrier) {
-            let carrier = carriers.members[same[0]].carrier;
+        for same in parts.chunk_by(|&i, &j| members[i].carrier == members[j].carrier) {
+            let carrier = members[same[0]].carrier;
             for (&v, place) in self.along(carrier).iter().zip(self.offsets[carrier as usize]..) {
                 place_of[v as usize] = place;
             }
             for &i in same {
                 self.stretches[i] =
-                    carriers.members[i].ends.map(|p| place_of[self.vertex_of_point[p as usize] as usize]);
+                    members[i].ends.map(|p| place_of[self.vertex_of_point[p as usize] as usize]);
             }
         }
-    }
-
-    /// Numbers the vertices in the order in which they occur along the carriers.
-    fn number(&mut self, n_points: u32, crossings: &[[u32; 2]], same: &[[u32; 2]]) {
-        let n = n_points as usize + crossings.len();
-        let mut sets = (!same.is_empty()).then(|| UnionFind::new(n));
-        if let Some(sets) = &mut sets {
-            for &[a, b] in same {
-                sets.union(a, b);
-            }
-        }
-        // A grid point represents its set, as its number is smaller than that of any crossing.
-        let mut root = |v: u32| sets.as_mut().map_or(v, |s| s.find(v));
-        let mut new = vec![NO_VERTEX; n];
-        for v in &mut self.chain {
-            let root = root(*v);
-            let number = &mut new[root as usize];
-            if *number == NO_VERTEX {
-                *number = self.vertices.len() as u32;
-                self.vertices.push(match root.checked_sub(n_points) {
-                    None => VertexSource::Point(root),
-                    Some(crossing) => VertexSource::Crossing(crossings[crossing as usize]),
-                });
-            }
-            *v = *number;
-        }
-        self.vertex_of_point = (0..n_points).map(|p| new[root(p) as usize]).collect();
     }
 
     /// Number of edges of all carriers.
@@ -127,23 +99,37 @@ impl Chains {
 
 /// The chains of some carriers, with pairs of vertices that are one point.
 #[derive(Default)]
-struct Part {
-    chain: Vec<u32>,
-    ends: Vec<u32>,
-    same: Vec<[u32; 2]>,
+pub(super) struct Part {
+    pub first_carrier: u32,
+    /// Crossings bear the mark `FIRST` on the first of their carriers.
+    pub chain: Vec<u32>,
+    /// Where each carrier's chain ends.
+    pub ends: Vec<u32>,
+    pub same: Vec<[u32; 2]>,
 }
 
 impl Part {
+    /// The carriers with their chains.
+    pub(super) fn chains(&self) -> impl Iterator<Item = (u32, &[u32])> + '_ {
+        let begins = std::iter::once(&0).chain(&self.ends);
+        let chains = begins.zip(&self.ends).map(|(&from, &to)| &self.chain[from as usize..to as usize]);
+        (self.first_carrier..).zip(chains)
+    }
+
+    fn lengths(&self) -> impl Iterator<Item = u32> + '_ {
+        self.chains().map(|(_, chain)| chain.len() as u32)
+    }
+
     fn push(&mut self, carriers: &Carriers, crossings: &[[u32; 2]], carrier: u32, events: &mut [Event]) {
         let n_points = carriers.points.len() as u32;
-        let along = |v: u32| match v.checked_sub(n_points) {
-            None => Along::point(carriers, carrier, v),
+        let along = |e: &Event| match e.id().checked_sub(n_points) {
+            None => Along::point(carriers, carrier, e.id()),
             Some(i) => {
                 let [s, t] = crossings[i as usize];
                 Along::crossing(carriers, carrier, if s == carrier { t } else { s })
             }
         };
-        events.sort_unstable_by(|a, b| a.key.total_cmp(&b.key).then_with(|| a.vertex.cmp(&b.vertex)));
+        events.sort_unstable_by(|a, b| a.key.total_cmp(&b.key).then_with(|| a.id().cmp(&b.id())));
         let ends = carriers.ends[carrier as usize];
         self.chain.push(ends[0]);
         let first = self.chain.len();
@@ -157,15 +143,15 @@ impl Part {
             }
             let near = &mut events[begin..end];
             if near.len() > 1 {
-                near.sort_by(|a, b| along(a.vertex).cmp(&along(b.vertex)).then(a.vertex.cmp(&b.vertex)));
+                near.sort_by(|a, b| along(a).cmp(&along(b)).then(a.id().cmp(&b.id())));
             }
             self.chain.push(near[0].vertex);
             for w in near.windows(2) {
-                let [a, b] = [w[0].vertex, w[1].vertex];
-                if a != b && along(a).cmp(&along(b)).is_eq() {
-                    self.same.push([a, b]);
-                } else if a != b {
-                    self.chain.push(b);
+                let [a, b] = [&w[0], &w[1]];
+                if a.id() != b.id() && along(a).cmp(&along(b)).is_eq() {
+                    self.same.push([a.id(), b.id()]);
+                } else if a.id() != b.id() {
+                    self.chain.push(b.vertex);
                 }
             }
             begin = end;

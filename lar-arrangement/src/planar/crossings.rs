@@ -5,7 +5,7 @@ use crate::parallel;
 use crate::planar::along::{key, long_axis};
 use crate::planar::bundles::{BUNDLE, Bundle, Bundles, bundles_at, n_sampled};
 use crate::planar::carriers::{Carriers, cross};
-use crate::planar::events::{CROSSING, Event, Lot, Ranges};
+use crate::planar::events::{Event, Lot, Ranges};
 use crate::progress::{Cancelled, Course};
 use rustc_hash::FxHashMap;
 use std::ops::Range;
@@ -122,7 +122,7 @@ struct Found {
 impl Found {
     /// The pairs of a block, without those in one bundle.
     fn search(&mut self, carriers: &Carriers, tree: &BoxTree<2>, bundles: &Bundles, block: usize) {
-        let first_event = self.events.len();
+        let (first_event, first_crossing) = (self.events.len(), self.crossings.len());
         tree.pairs_of_block(block, |i, j| {
             self.pairs += 1;
             if !self.is_in_bundle(bundles, i, j) {
@@ -131,12 +131,50 @@ impl Found {
         });
         if self.events.len() - first_event >= 2 * BUNDLE {
             let pivot = tree.first_of_block(block);
+            let first_bundle = self.bundles.len();
             for bundle in bundles_at(carriers, pivot, &self.events[first_event..], &self.crossings) {
                 let number = self.bundles.len() as u32;
                 self.marks.extend(bundle.carriers.iter().map(|&c| (c, number)));
                 self.bundles.push(bundle);
             }
+            if first_bundle < self.bundles.len() {
+                self.forget(pivot, first_bundle as u32, first_crossing, first_event);
+            }
         }
+    }
+
+    /// Leaves out what a block has found before its bundles were known: pairs of one bundle without the pivot, which
+    /// meets both where they meet.
+    fn forget(&mut self, pivot: u32, first_bundle: u32, first_crossing: usize, first_event: usize) {
+        let is_new = |[s, t]: [u32; 2]| {
+            let mark = self.marks.get(&s).filter(|&&mark| first_bundle <= mark);
+            s == pivot || t == pivot || mark.is_none() || mark != self.marks.get(&t)
+        };
+        // In place: what comes before is not looked at again.
+        let mut n_crossings = first_crossing;
+        let mut numbers = vec![None; self.crossings.len() - first_crossing];
+        for old in first_crossing..self.crossings.len() {
+            let pair = self.crossings[old];
+            if is_new(pair) {
+                numbers[old - first_crossing] = Some(n_crossings);
+                self.crossings[n_crossings] = pair;
+                n_crossings += 1;
+            }
+        }
+        self.crossings.truncate(n_crossings);
+        let mut n_events = first_event;
+        for old in first_event..self.events.len() {
+            let event = self.events[old];
+            let kept = match event.crossing_of_lot() {
+                None => Some(event),
+                Some(crossing) => numbers[crossing - first_crossing].map(|number| event.renumbered(number)),
+            };
+            if let Some(event) = kept {
+                self.events[n_events] = event;
+                n_events += 1;
+            }
+        }
+        self.events.truncate(n_events);
     }
 
     fn is_in_bundle(&self, bundles: &Bundles, i: u32, j: u32) -> bool {
@@ -164,10 +202,10 @@ impl Found {
             return;
         }
         if to_r != 0 && to_w != 0 && to_p != 0 && to_q != 0 {
-            let vertex = CROSSING | self.crossings.len() as u32;
+            let number = self.crossings.len();
             self.crossings.push([s, t]);
-            self.events.push(Event { carrier: s, vertex, key: key(p, ds, to_p, to_q) });
-            self.events.push(Event { carrier: t, vertex, key: key(r, dt, to_r, to_w) });
+            self.events.push(Event::crossing(s, number, s < t, key(p, ds, to_p, to_q)));
+            self.events.push(Event::crossing(t, number, t < s, key(r, dt, to_r, to_w)));
             return;
         }
         self.touch(carriers, s, [to_p, to_q], carriers.ends[t as usize], [to_r, to_w]);

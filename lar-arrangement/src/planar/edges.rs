@@ -83,19 +83,15 @@ impl Edges {
         self.ends[run.first_edge as usize][0]
     }
 
-    /// Carrier of each edge.
-    pub(crate) fn carriers(&self) -> Vec<u32> {
-        self.run_of.iter().map(|&run| self.runs[run as usize].carrier).collect()
-    }
-
     /// The cycles of half-edges, and the connected component of each run.
     pub(crate) fn cycles(&self, carriers: &Carriers, n_vertices: usize) -> (Cycles, Vec<u32>) {
         let star = Star::new(self, carriers, n_vertices);
-        let next = parallel::map(self.ends.len(), |e| {
+        let next = |e: usize| {
             let (run, [a, b]) = (self.run_of[e], self.ends[e]);
             [star.clockwise(self, b, run, false), star.clockwise(self, a, run, true)]
-        });
-        let components = star.components(self.runs.len());
+        };
+        let (next, components) =
+            parallel::join(|| parallel::map(self.ends.len(), next), || star.components(self.runs.len()));
         drop(star);
         (Cycles::new(next.into_flattened()), components)
     }
@@ -105,8 +101,30 @@ impl Edges {
 #[derive(Clone, Copy, Debug, Default)]
 struct Pass {
     run: u32,
-    /// The edge that leaves the vertex forwards, unless the run ends here.
+    /// The edge that would leave the vertex forwards if the run went on; marked with the sides on which it does. There
+    /// are fewer than 2^30 edges.
     edge: u32,
+}
+
+const FORWARDS: u32 = 1 << 31;
+const BACKWARDS: u32 = 1 << 30;
+
+impl Pass {
+    fn new(number: u32, run: &Run, edge: u32) -> Self {
+        let forwards = if edge < run.end_edge { FORWARDS } else { 0 };
+        let backwards = if run.first_edge < edge { BACKWARDS } else { 0 };
+        Self { run: number, edge: edge | forwards | backwards }
+    }
+
+    /// The half-edge that leaves the vertex forwards or backwards along the run.
+    fn leaves(&self, forwards: bool) -> Option<u32> {
+        let edge = self.edge & (BACKWARDS - 1);
+        if forwards {
+            (self.edge & FORWARDS != 0).then_some(2 * edge)
+        } else {
+            (self.edge & BACKWARDS != 0).then(|| 2 * edge - 1)
+        }
+    }
 }
 
 /// The runs that pass each vertex, by slope.
@@ -135,7 +153,7 @@ impl<'a> Star<'a> {
         for (run, number) in edges.runs.iter().zip(0..) {
             edges.vertices(run, |v, edge| {
                 offsets[v as usize] -= 1;
-                passes[offsets[v as usize] as usize] = Pass { run: number, edge };
+                passes[offsets[v as usize] as usize] = Pass::new(number, run, edge);
             });
         }
         let mut out = Self { carriers, offsets, passes: Vec::new() };
@@ -160,20 +178,18 @@ impl<'a> Star<'a> {
     /// The half-edge that leaves a vertex first clockwise from that of a run, which leads forwards or backwards.
     fn clockwise(&self, edges: &Edges, vertex: u32, run: u32, forwards: bool) -> u32 {
         let passes = self.at(vertex);
-        let leaves = |p: &Pass, forwards: bool| {
-            let run = &edges.runs[p.run as usize];
-            if forwards {
-                (p.edge < run.end_edge).then_some(2 * p.edge)
-            } else {
-                (p.edge > run.first_edge).then(|| 2 * p.edge - 1)
+        let last = |passes: &[Pass], forwards| passes.iter().rev().find_map(|p| p.leaves(forwards));
+        if let [p, q] = passes {
+            let other = if p.run == run { q.leaves(!forwards) } else { p.leaves(forwards) };
+            if let Some(half_edge) = other {
+                return half_edge;
             }
-        };
+        }
         let own = match passes.len() {
             0..=FEW => passes.iter().position(|p| p.run == run),
             _ => passes.binary_search_by_key(&self.rank(edges, run), |p| self.rank(edges, p.run)).ok(),
         };
         let own = own.expect("a run passes the ends of its edges");
-        let last = |passes: &[Pass], forwards| passes.iter().rev().find_map(|p| leaves(p, forwards));
         last(&passes[..own], forwards)
             .or_else(|| last(passes, !forwards))
             .or_else(|| last(&passes[own..], forwards))

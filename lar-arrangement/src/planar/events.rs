@@ -1,20 +1,47 @@
 //! Planar stage 2b: events, sorted by ranges of carriers as they are found, so that every range's can be gathered
 //! on its own.
 
+use crate::counting::sorted_by_place;
 use std::ops::Range;
 
 /// A point inside a carrier: by its approximate coordinate along the carrier's longer axis.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Event {
     pub carrier: u32,
-    /// A grid point, or (from the number of points on) a crossing.
+    /// A grid point, or (from the number of points on) a crossing; in a lot the number of a crossing of the lot, marked
+    /// with `CROSSING`. There are fewer than 2^30.
     pub vertex: u32,
     /// Within `KEY_ERROR` of the exact coordinate.
     pub key: f64,
 }
 
 /// Marks vertices that are crossings of the same lot.
-pub(crate) const CROSSING: u32 = 1 << 31;
+const CROSSING: u32 = 1 << 31;
+
+/// Marks crossings on the first of their two carriers.
+pub(crate) const FIRST: u32 = 1 << 30;
+
+impl Event {
+    /// A crossing of the lot, on the first or the second of its carriers.
+    pub(crate) fn crossing(carrier: u32, number: usize, is_first: bool, key: f64) -> Self {
+        Self { carrier, vertex: CROSSING | if is_first { FIRST } else { 0 } | number as u32, key }
+    }
+
+    /// The number of the crossing in the lot.
+    pub(crate) fn crossing_of_lot(&self) -> Option<usize> {
+        (self.vertex & CROSSING != 0).then_some((self.vertex & (FIRST - 1)) as usize)
+    }
+
+    /// The same with another number of its crossing in the lot.
+    pub(crate) fn renumbered(self, number: usize) -> Self {
+        Self { vertex: self.vertex & (CROSSING | FIRST) | number as u32, ..self }
+    }
+
+    /// The vertex without a mark.
+    pub(crate) fn id(&self) -> u32 {
+        self.vertex & !FIRST
+    }
+}
 
 /// Ranges of carriers: at most 256, of 64 carriers or more.
 #[derive(Clone, Copy, Debug)]
@@ -63,34 +90,11 @@ impl Lot {
         Self { base, ..self }
     }
 
-    /// The events of a range, with the final numbers of their vertices.
+    /// The events of a range, with the final numbers of their vertices and the mark `FIRST`.
     pub(crate) fn of_range(&self, range: usize) -> impl Iterator<Item = Event> + '_ {
         let vertex = |v: u32| if v & CROSSING == 0 { v } else { self.base + (v ^ CROSSING) };
         self.events[self.offsets[range] as usize..self.offsets[range + 1] as usize]
             .iter()
             .map(move |e| Event { vertex: vertex(e.vertex), ..*e })
     }
-}
-
-/// A counting sort that keeps the order of equal items: where those of each place begin, and all in order.
-pub(crate) fn sorted_by_place(
-    n_places: usize,
-    events: &[Event],
-    place: impl Fn(&Event) -> usize,
-) -> (Vec<u32>, Vec<Event>) {
-    let mut offsets = vec![0u32; n_places + 1];
-    for e in events {
-        offsets[place(e) + 1] += 1;
-    }
-    for i in 0..n_places {
-        offsets[i + 1] += offsets[i];
-    }
-    let mut fill = offsets.clone();
-    let mut sorted = vec![Event { carrier: 0, vertex: 0, key: 0.0 }; events.len()];
-    for e in events {
-        let at = &mut fill[place(e)];
-        sorted[*at as usize] = *e;
-        *at += 1;
-    }
-    (offsets, sorted)
 }

@@ -50,9 +50,10 @@ impl Embedding<'_> {
     fn first_runs(&self, component_of: &[u32]) -> Vec<u32> {
         let n = component_of.iter().max().map_or(0, |&c| c as usize + 1);
         let mut firsts: Vec<Option<u32>> = vec![None; n];
+        let x = |run: u32| self.positions[self.edges.start(&self.edges.runs[run as usize]) as usize][0];
         for (&c, run) in component_of.iter().zip(0..) {
             let best = &mut firsts[c as usize];
-            if best.is_none_or(|b| self.cmp_starts(run, b).is_lt()) {
+            if best.is_none_or(|b| x(run) <= x(b) && self.cmp_starts(run, b).is_lt()) {
                 *best = Some(run);
             }
         }

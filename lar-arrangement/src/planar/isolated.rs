@@ -40,7 +40,7 @@ impl PlanarArrangement {
             points.push(&position);
         }
         self.n_components += self.isolated.len();
-        let boundaries = vec![boundary_1(points.len(), &self.edges()), self.complex().boundary(2).clone()];
+        let boundaries = vec![boundary_1(points.len(), self.edges()), self.complex().boundary(2).clone()];
         self.complex = ChainComplex::new(points, boundaries);
         self.index = OnceLock::new();
     }

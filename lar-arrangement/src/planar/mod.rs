@@ -17,6 +17,7 @@ mod faces;
 mod input;
 mod isolated;
 mod location;
+mod numbering;
 mod points;
 mod positions;
 mod query;

@@ -45,6 +45,7 @@ pub(crate) fn lengths(
             }
         });
     }
-    positions.iter_mut().flatten().for_each(|x| *x = grid.length(*x));
+    let scale = |part: &mut [[f64; 2]]| part.iter_mut().flatten().for_each(|x| *x = grid.length(*x));
+    parallel::each(positions.chunks_mut(1 << 14).collect(), scale);
     positions
 }

@@ -111,7 +111,7 @@ impl PlanarArrangement {
         }
         self.carrier_of = merged.old_half_edge.iter().map(|&h| self.carrier_of[(h / 2) as usize]).collect();
         let boundaries =
-            vec![boundary_1(points.len(), &merged.edges), boundary_2(merged.edges.len(), &merged)];
+            vec![boundary_1(points.len(), merged.edges.clone()), boundary_2(merged.edges.len(), &merged)];
         self.complex = ChainComplex::new(points, boundaries);
         self.n_components = self.complex.connected_components().n;
         self.loops = merged.loops;

@@ -166,8 +166,7 @@ impl<'a> PlanarArranger<'a> {
         let grid = fitted_grid(drawing)?;
         let points = drawing.points.coords();
         let snapped = parallel::map(drawing.points.len(), |i| grid.snap([points[2 * i], points[2 * i + 1]]));
-        let carriers = Carriers::new(drawing, &snapped);
-        drop(snapped);
+        let carriers = Carriers::new(drawing, snapped);
         course.begin("crossings", &mut stats)?;
         let n_carriers = carriers.ends.len() as u32;
         let tree = BoxTree::over(sample_first(&Vec::from_iter(0..n_carriers)), |c| carriers.box_of(c));

@@ -11,6 +11,8 @@ use super::format::{MeshFormat, SurfaceFile};
 use super::polygons::{PolygonMesh, polygons, write_line, write_point};
 use super::precision::Digits;
 use super::source::{At, Source, clip};
+use super::text::TextWriter;
+use super::words::words_of;
 use crate::measure::xyz;
 use crate::{Cells, Points, Surface};
 use std::io::{self, Write};
@@ -27,9 +29,9 @@ pub(crate) fn read(source: &mut Source<'_>) -> Result<SurfaceFile, MeshFileError
     for _ in 0..n_vertices {
         let (at, line) = source.statement("a vertex")?;
         at.check_size(coords.len() / 3 + 1)?;
-        let mut words = line.split_ascii_whitespace();
+        let mut words = words_of(line);
         for _ in 0..3 {
-            coords.push(at.coordinate(words.next(), &mut digits)?);
+            coords.push(at.coordinate(&mut words, &mut digits)?);
         }
     }
     let points = Points::from_columns(3, coords);
@@ -51,7 +53,7 @@ pub(crate) fn read(source: &mut Source<'_>) -> Result<SurfaceFile, MeshFileError
 /// The header, whose counts may stand on its own line or the next.
 fn read_counts(source: &mut Source<'_>) -> Result<[u64; 2], MeshFileError> {
     let (at, line) = source.statement("OFF")?;
-    let mut words = line.split_ascii_whitespace();
+    let mut words = words_of(line);
     let keyword = words.next().unwrap_or("");
     let extras = keyword.strip_suffix("OFF").ok_or_else(|| at.expected("OFF", keyword))?;
     let extras = extras.strip_prefix("ST").unwrap_or(extras);
@@ -65,7 +67,7 @@ fn read_counts(source: &mut Source<'_>) -> Result<[u64; 2], MeshFileError> {
         Some(first) => counts(at, std::iter::once(first).chain(words)),
         None => {
             let (at, line) = source.statement("the numbers of vertices and faces")?;
-            counts(at, line.split_ascii_whitespace())
+            counts(at, words_of(line))
         }
     }
 }
@@ -75,7 +77,7 @@ fn counts<'w>(at: At<'_>, mut words: impl Iterator<Item = &'w str>) -> Result<[u
 }
 
 fn read_face(at: At<'_>, line: &str, n_vertices: usize, polygon: &mut Vec<u32>) -> Result<(), MeshFileError> {
-    let mut words = line.split_ascii_whitespace();
+    let mut words = words_of(line);
     let size = at.count(words.next(), "the number of corners")?;
     if size < 3 {
         return Err(at.error(Problem::FaceSize { found: size as i64 }));
@@ -91,6 +93,8 @@ fn read_face(at: At<'_>, line: &str, n_vertices: usize, polygon: &mut Vec<u32>) 
 
 pub(crate) fn write(mesh: &impl PolygonMesh, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "OFF\n{} {} 0", mesh.points().len(), mesh.n_faces())?;
-    (0..mesh.points().len()).try_for_each(|v| write_point(out, xyz(mesh.points(), v)))?;
-    polygons(mesh).try_for_each(|polygon| write_line(out, polygon))
+    let mut out = TextWriter::new(out);
+    (0..mesh.points().len()).try_for_each(|v| write_point(&mut out, xyz(mesh.points(), v)))?;
+    polygons(mesh).try_for_each(|polygon| write_line(&mut out, polygon))?;
+    out.finish()
 }

@@ -3,7 +3,8 @@
 use super::error::MeshFileError;
 use super::format::{MeshFormat, write_as};
 use super::gltf;
-use crate::obj::{write_face, write_number, write_vertices};
+use super::text::TextWriter;
+use crate::obj::{write_face, write_vertices};
 use crate::{Points, Surface, TriangleMesh, VertexId};
 use std::io::{self, Write};
 use std::path::Path;
@@ -128,22 +129,28 @@ pub(crate) fn polygons<M: PolygonMesh>(mesh: &M) -> impl Iterator<Item = &[u32]>
 }
 
 pub(crate) fn write_obj(mesh: &impl PolygonMesh, out: &mut dyn Write) -> io::Result<()> {
-    write_vertices(out, mesh.points())?;
-    polygons(mesh).try_for_each(|polygon| write_face(out, polygon))
+    let mut out = TextWriter::new(out);
+    write_vertices(&mut out, mesh.points())?;
+    polygons(mesh).try_for_each(|polygon| write_face(&mut out, polygon))?;
+    out.finish()
 }
 
 /// `x y z`, each in the shortest form that reads back exactly.
-pub(crate) fn write_point(out: &mut dyn Write, [x, y, z]: [f64; 3]) -> io::Result<()> {
-    for (number, after) in [(x, b" "), (y, b" "), (z, b"\n")] {
-        write_number(out, number)?;
-        out.write_all(after)?;
+pub(crate) fn write_point(out: &mut TextWriter<'_>, [x, y, z]: [f64; 3]) -> io::Result<()> {
+    out.number(x);
+    for number in [y, z] {
+        out.push(" ");
+        out.number(number);
     }
-    Ok(())
+    out.end_line()
 }
 
 /// `n v1 … vn`.
-pub(crate) fn write_line(out: &mut dyn Write, polygon: &[u32]) -> io::Result<()> {
-    write!(out, "{}", polygon.len())?;
-    polygon.iter().try_for_each(|v| write!(out, " {v}"))?;
-    out.write_all(b"\n")
+pub(crate) fn write_line(out: &mut TextWriter<'_>, polygon: &[u32]) -> io::Result<()> {
+    out.integer(polygon.len() as u64);
+    for &v in polygon {
+        out.push(" ");
+        out.integer(v.into());
+    }
+    out.end_line()
 }

@@ -1,7 +1,9 @@
 //! Segments of the plane as text: `x1 y1 x2 y2` a line, `#` begins a comment.
 
 use super::error::{MeshFileError, Problem};
+use super::precision::Digits;
 use super::source::{At, Source};
+use super::words::words_of;
 use crate::FileError;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
@@ -59,9 +61,9 @@ fn read(file: &Path, input: &mut dyn BufRead) -> Result<Vec<[f64; 4]>, MeshFileE
 fn segment(at: At<'_>, line: &str) -> Result<Option<[f64; 4]>, MeshFileError> {
     const NEEDED: usize = 4;
     let mut segment = [0.; NEEDED];
-    let mut found = 0;
-    for word in line.split_ascii_whitespace() {
-        let number = at.number(word)?;
+    let (mut found, mut words) = (0, words_of(line));
+    while !words.clone().first().is_empty() {
+        let number = at.coordinate(&mut words, &mut Digits::default())?;
         if let Some(place) = segment.get_mut(found) {
             *place = number;
         }

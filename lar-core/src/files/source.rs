@@ -2,10 +2,12 @@
 
 use super::error::{MeshFileError, Place, Problem};
 use super::precision::Digits;
+use super::words::Words;
 use crate::FileError;
 use crate::obj::is_utf16;
 use std::io::{self, BufRead, Read};
 use std::path::Path;
+use std::string::FromUtf8Error;
 
 /// Where something was read: what errors say.
 #[derive(Clone, Copy, Debug)]
@@ -24,18 +26,11 @@ impl At<'_> {
     }
 
     /// A finite coordinate; its digits are noted.
-    pub(crate) fn coordinate(self, word: Option<&str>, digits: &mut Digits) -> Result<f64, MeshFileError> {
-        let word = word.unwrap_or("");
-        let x = self.number(word)?;
-        digits.note(word);
-        Ok(x)
-    }
-
-    /// A finite coordinate.
-    pub(crate) fn number(self, word: &str) -> Result<f64, MeshFileError> {
-        let x: f64 = word.parse().map_err(|_| self.expected("a coordinate", word))?;
+    pub(crate) fn coordinate(self, words: &mut Words<'_>, digits: &mut Digits) -> Result<f64, MeshFileError> {
+        let before = words.clone();
+        let x = digits.next(words).map_err(|word| self.expected("a coordinate", word))?;
         if !x.is_finite() {
-            return Err(self.error(Problem::NonFinite { value: clip(word) }));
+            return Err(self.error(Problem::NonFinite { value: clip(before.first()) }));
         }
         // Minus zero is where zero is: equal points have equal coordinates.
         Ok(x + 0.)
@@ -83,12 +78,15 @@ pub(crate) struct Source<'a> {
     len: u64,
     offset: u64,
     line: u64,
-    buffer: Vec<u8>,
+    /// The line with its end.
+    text: String,
+    /// Whether it is the first line of UTF-16.
+    is_utf16: bool,
 }
 
 impl<'a> Source<'a> {
     pub(crate) fn new(file: &'a Path, input: &'a mut dyn BufRead, len: u64) -> Self {
-        Self { file, input, len, offset: 0, line: 0, buffer: Vec::new() }
+        Self { file, input, len, offset: 0, line: 0, text: String::new(), is_utf16: false }
     }
 
     /// Length of the file in bytes.
@@ -132,7 +130,7 @@ impl<'a> Source<'a> {
     pub(crate) fn statement(&mut self, expected: &'static str) -> Result<(At<'a>, &str), MeshFileError> {
         let blank = |line: &[u8]| matches!(line.trim_ascii_start().first(), None | Some(b'#'));
         while self.advance()? {
-            if !blank(&self.buffer) {
+            if !blank(self.text.as_bytes()) {
                 let (at, line) = self.text()?;
                 return Ok((at, line.split('#').next().unwrap_or_default()));
             }
@@ -143,27 +141,30 @@ impl<'a> Source<'a> {
     /// Takes the next line into the buffer; false at the end of the file. Names and comments may be in any encoding
     /// that agrees with ASCII: what is not UTF-8 in them reads as U+FFFD.
     fn advance(&mut self) -> Result<bool, MeshFileError> {
-        self.buffer.clear();
-        let read = (&mut *self.input).take(LONGEST_LINE).read_until(b'\n', &mut self.buffer);
+        let mut bytes = std::mem::take(&mut self.text).into_bytes();
+        bytes.clear();
+        let read = (&mut *self.input).take(LONGEST_LINE).read_until(b'\n', &mut bytes);
         let n = read.map_err(|source| self.failure(source))?;
         if n as u64 == LONGEST_LINE {
             return Err(self.at_line().error(Problem::LongLine { limit: LONGEST_LINE }));
         }
         self.offset += n as u64;
         self.line += u64::from(n > 0);
-        if self.line == 1 && self.buffer.starts_with(MARK) {
-            self.buffer.drain(..MARK.len());
+        if self.line == 1 && bytes.starts_with(MARK) {
+            bytes.drain(..MARK.len());
         }
-        if str::from_utf8(&self.buffer).is_err() && !(self.line == 1 && is_utf16(&self.buffer)) {
-            self.buffer = String::from_utf8_lossy(&self.buffer).into_owned().into_bytes();
-        }
+        self.is_utf16 = self.line == 1 && is_utf16(&bytes);
+        let lossy = |error: FromUtf8Error| String::from_utf8_lossy(error.as_bytes()).into_owned();
+        self.text = String::from_utf8(bytes).unwrap_or_else(lossy);
         Ok(n > 0)
     }
 
     fn text(&self) -> Result<(At<'a>, &str), MeshFileError> {
         let at = self.at_line();
-        let text = str::from_utf8(&self.buffer).map_err(|_| at.error(Problem::NotUtf8))?;
-        Ok((at, text.trim_end_matches(['\n', '\r'])))
+        if self.is_utf16 {
+            return Err(at.error(Problem::NotUtf8));
+        }
+        Ok((at, self.text.trim_end_matches(['\n', '\r'])))
     }
 
     /// The next bytes, or the error that `expected` is missing.

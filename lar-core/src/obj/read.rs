@@ -7,8 +7,8 @@
 
 use super::ObjError;
 use crate::atomic_write::read;
-use crate::files::Digits;
-use crate::{Cells, Points, Precision, Surface};
+use crate::files::{Digits, Words, words_of};
+use crate::{Cells, Points, Surface};
 use rustc_hash::FxHashMap;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -71,26 +71,14 @@ pub fn parse_obj(
         reader.statement(line, &statement)?;
     }
     reader.check_faces()?;
+    let precision = reader.digits.precision();
     let name = file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
     let mut surfaces = match grouping {
         ObjGrouping::Whole => vec![reader.whole(name)],
         ObjGrouping::Groups => reader.groups(&name),
     };
-    let precision = precision(text);
     surfaces.iter_mut().for_each(|surface| surface.precision = precision);
     Ok(surfaces)
-}
-
-/// What the coordinates of the `v` statements are worth.
-fn precision(text: &str) -> Precision {
-    let mut digits = Digits::default();
-    for line in text.lines() {
-        let mut words = line.split_ascii_whitespace();
-        if words.next() == Some("v") {
-            words.take(3).for_each(|word| digits.note(word));
-        }
-    }
-    digits.precision()
 }
 
 /// The statements with their first lines: comments cut off, continued lines joined.
@@ -119,13 +107,17 @@ fn uncommented(line: &str) -> &str {
 
 /// The line without the backslash that continues it; `None` when it ends here. A comment does not continue.
 fn continued(line: &str) -> Option<&str> {
-    if line.contains('#') { None } else { line.trim_end().strip_suffix('\\') }
+    line.trim_end().strip_suffix('\\').filter(|start| !start.contains('#'))
 }
 
 struct Reader<'a> {
     file: &'a Path,
     coords: Vec<f64>,
+    /// What the coordinates are worth.
+    digits: Digits,
     faces: Cells,
+    /// The face being read.
+    face: Vec<u32>,
     /// Per face: its line, and its group.
     origins: Vec<(usize, u32)>,
     /// Names of groups in first-seen order; group 0 is the file itself.
@@ -139,7 +131,9 @@ impl<'a> Reader<'a> {
         Self {
             file,
             coords: Vec::new(),
+            digits: Digits::default(),
             faces: Cells::new(),
+            face: Vec::new(),
             origins: Vec::new(),
             names: vec![String::new()],
             group_of: FxHashMap::default(),
@@ -156,7 +150,7 @@ impl<'a> Reader<'a> {
     }
 
     fn statement(&mut self, line: usize, statement: &str) -> Result<(), ObjError> {
-        let mut words = statement.split_whitespace();
+        let mut words = words_of(statement);
         match words.next() {
             Some("v") => self.vertex(line, words),
             Some("f") => self.face(line, words),
@@ -165,37 +159,34 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn vertex<'w>(&mut self, line: usize, words: impl Iterator<Item = &'w str>) -> Result<(), ObjError> {
-        let mut found = 0;
-        for word in words.take(3) {
-            let Ok(x) = word.parse::<f64>() else {
-                return Err(ObjError::NotANumber { file: self.path(), line, value: word.to_owned() });
-            };
-            if !x.is_finite() {
-                return Err(ObjError::NonFinite { file: self.path(), line, value: word.to_owned() });
+    fn vertex(&mut self, line: usize, mut words: Words<'_>) -> Result<(), ObjError> {
+        for found in 0..3 {
+            let before = words.clone();
+            let value = || before.clone().first().to_owned();
+            match self.digits.next(&mut words) {
+                Ok(x) if x.is_finite() => self.coords.push(x),
+                Ok(_) => return Err(ObjError::NonFinite { file: self.path(), line, value: value() }),
+                Err("") => return Err(ObjError::ShortVertex { file: self.path(), line, found }),
+                Err(_) => return Err(ObjError::NotANumber { file: self.path(), line, value: value() }),
             }
-            self.coords.push(x);
-            found += 1;
-        }
-        if found < 3 {
-            return Err(ObjError::ShortVertex { file: self.path(), line, found });
         }
         self.check_size(line, self.n_vertices())
     }
 
-    fn face<'w>(&mut self, line: usize, words: impl Iterator<Item = &'w str>) -> Result<(), ObjError> {
-        let mut face = Vec::new();
+    fn face(&mut self, line: usize, words: Words<'_>) -> Result<(), ObjError> {
+        self.face.clear();
         for word in words {
             let Some(index) = corner(word) else {
                 return Err(ObjError::NotACorner { file: self.path(), line, value: word.to_owned() });
             };
-            face.push(self.resolve(line, index)?);
+            self.face.push(self.resolve(line, index)?);
         }
-        if face.len() < 3 {
-            return Err(ObjError::ShortFace { file: self.path(), line, found: face.len() });
+        let found = self.face.len();
+        if found < 3 {
+            return Err(ObjError::ShortFace { file: self.path(), line, found });
         }
-        self.check_size(line, self.faces.indices().len() + face.len())?;
-        self.faces.push(&face);
+        self.check_size(line, self.faces.indices().len() + found)?;
+        self.faces.push(&self.face);
         self.origins.push((line, self.group));
         Ok(())
     }
@@ -242,11 +233,7 @@ impl<'a> Reader<'a> {
     }
 
     fn whole(self, name: String) -> Surface {
-        let mut surface = Surface::new(name, Points::from_columns(3, self.coords));
-        for face in self.faces.iter() {
-            surface.push_face([face], 1);
-        }
-        surface
+        Surface::from_polygons(name, Points::from_columns(3, self.coords), self.faces)
     }
 
     fn groups(mut self, file_name: &str) -> Vec<Surface> {
@@ -280,11 +267,13 @@ impl<'a> Reader<'a> {
 /// The vertex index of a corner v, v/vt, v//vn or v/vt/vn; the others must be whole numbers where they stand, and
 /// exporters write a slash with none behind it.
 fn corner(word: &str) -> Option<i64> {
-    let mut parts = word.split('/');
+    if let Ok(vertex) = word.parse() {
+        return Some(vertex);
+    }
+    let mut parts = word.splitn(3, '/');
     let vertex = parts.next()?.parse().ok()?;
-    let rest: Vec<&str> = parts.collect();
-    let number = |part: &&str| part.is_empty() || part.parse::<i64>().is_ok();
-    (rest.len() <= 2 && rest.iter().all(number)).then_some(vertex)
+    let number = |part: &str| part.is_empty() || part.parse::<i64>().is_ok();
+    parts.all(number).then_some(vertex)
 }
 
 #[cfg(test)]

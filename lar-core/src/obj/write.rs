@@ -1,6 +1,7 @@
 //! Writing OBJ: coordinates in the shortest form that reads back as the same `f64`.
 
 use super::ObjError;
+use crate::files::TextWriter;
 use crate::{ChainComplex, FaceId, Points, TriangleMesh, VertexId, atomic_write};
 use std::io::{self, Write};
 use std::path::Path;
@@ -35,8 +36,10 @@ impl TriangleMesh {
     }
 
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        write_vertices(out, &self.points)?;
-        self.triangles.iter().try_for_each(|triangle| write_face(out, triangle))
+        let mut out = TextWriter::new(out);
+        write_vertices(&mut out, &self.points)?;
+        self.triangles.iter().try_for_each(|triangle| write_face(&mut out, triangle))?;
+        out.finish()
     }
 
     fn check_writable(&self) -> Result<(), ObjError> {
@@ -117,34 +120,32 @@ fn text(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> String {
 }
 
 fn write_polygons(out: &mut dyn Write, points: &Points, faces: &[Vec<u32>]) -> io::Result<()> {
-    write_vertices(out, points)?;
-    faces.iter().try_for_each(|face| write_face(out, face))
+    let mut out = TextWriter::new(out);
+    write_vertices(&mut out, points)?;
+    faces.iter().try_for_each(|face| write_face(&mut out, face))?;
+    out.finish()
 }
 
 /// `v x y z`; plane points have z = 0.
-pub(crate) fn write_vertices(out: &mut dyn Write, points: &Points) -> io::Result<()> {
+pub(crate) fn write_vertices(out: &mut TextWriter<'_>, points: &Points) -> io::Result<()> {
     for point in points.iter() {
-        out.write_all(b"v")?;
+        out.push("v");
         for k in 0..3 {
-            out.write_all(b" ")?;
-            write_number(out, point.get(k).copied().unwrap_or(0.))?;
+            out.push(" ");
+            out.number(point.get(k).copied().unwrap_or(0.));
         }
-        out.write_all(b"\n")?;
+        out.end_line()?;
     }
     Ok(())
 }
 
-/// The shortest decimal that reads back as `x`; small and large numbers take the exponent form.
-pub(crate) fn write_number(out: &mut dyn Write, x: f64) -> io::Result<()> {
-    if x == 0. || (1e-5..1e16).contains(&x.abs()) { write!(out, "{x}") } else { write!(out, "{x:e}") }
-}
-
-pub(crate) fn write_face(out: &mut dyn Write, vertices: &[u32]) -> io::Result<()> {
-    out.write_all(b"f")?;
+pub(crate) fn write_face(out: &mut TextWriter<'_>, vertices: &[u32]) -> io::Result<()> {
+    out.push("f");
     for &v in vertices {
-        write!(out, " {}", u64::from(v) + 1)?;
+        out.push(" ");
+        out.integer(u64::from(v) + 1);
     }
-    out.write_all(b"\n")
+    out.end_line()
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! SVG documents of paths.
 
 use crate::atomic_write;
-use crate::obj::write_number;
+use crate::files::push_number;
 use crate::svg::SvgError;
 use std::io::Write;
 use std::path::Path;
@@ -129,7 +129,7 @@ impl SvgWriter {
     }
 
     fn number(&mut self, x: f64) {
-        write_number(&mut self.text, x).expect(MEMORY);
+        push_number(&mut self.text, x);
     }
 }
 

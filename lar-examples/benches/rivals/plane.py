@@ -134,7 +134,8 @@ with CGAL.
 
 {chr(10).join(costs(rows))}
 
-Cells are vertices, edges and faces; memory is the peak of the process during the operation beyond what it had before.
+Cells are vertices, edges and faces; memory is the peak of the process during the operation beyond what it had before,
+which includes the program itself: every one has arranged three segments first.
 Wall times tell little when the machine has other work.
 """
 

@@ -5,6 +5,7 @@ use crate::files::error::{MeshFileError, Problem};
 use crate::files::format::{MeshFormat, SurfaceFile};
 use crate::files::precision::{Digits, Precision};
 use crate::files::source::{At, Source};
+use crate::files::words::words_of;
 use crate::{Cells, Points, Surface};
 
 pub(crate) fn read(source: &mut Source<'_>) -> Result<SurfaceFile, MeshFileError> {
@@ -95,12 +96,12 @@ impl Items {
     }
 
     fn text_item(&mut self, at: At<'_>, line: &str, element: &Element) -> Result<(), MeshFileError> {
-        let mut words = line.split_ascii_whitespace();
+        let mut words = words_of(line);
         for &(kind, used) in &element.properties {
             match kind {
-                Kind::Scalar(_) => match (used, words.next()) {
-                    (Use::Coordinate(k), word) => self.point[k] = at.coordinate(word, &mut self.digits)?,
-                    (_, None) => return Err(at.expected("a number", "")),
+                Kind::Scalar(_) => match used {
+                    Use::Coordinate(k) => self.point[k] = at.coordinate(&mut words, &mut self.digits)?,
+                    _ if words.next().is_none() => return Err(at.expected("a number", "")),
                     _ => {}
                 },
                 Kind::List { .. } => {

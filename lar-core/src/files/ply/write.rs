@@ -2,16 +2,30 @@
 
 use crate::files::format::MeshFormat;
 use crate::files::polygons::{PolygonMesh, polygons, write_line, write_point};
+use crate::files::text::TextWriter;
 use crate::measure::xyz;
 use std::io::{self, Write};
 
 pub(crate) fn write(mesh: &impl PolygonMesh, format: MeshFormat, out: &mut dyn Write) -> io::Result<()> {
     let longest = polygons(mesh).map(<[u32]>::len).max().unwrap_or(0);
     write_header(mesh, format, longest > usize::from(u8::MAX), out)?;
-    for point in (0..mesh.points().len()).map(|v| xyz(mesh.points(), v)) {
-        write_coordinates(point, format, out)?;
+    let mut points = (0..mesh.points().len()).map(|v| xyz(mesh.points(), v));
+    match format {
+        MeshFormat::PlyText => {
+            let mut out = TextWriter::new(out);
+            points.try_for_each(|point| write_point(&mut out, point))?;
+            polygons(mesh).try_for_each(|polygon| write_line(&mut out, polygon))?;
+            out.finish()
+        }
+        MeshFormat::PlyBigEndian => {
+            points.try_for_each(|point| out.write_all(point.map(f64::to_be_bytes).as_flattened()))?;
+            polygons(mesh).try_for_each(|polygon| write_polygon(polygon, u32::to_be_bytes, longest, out))
+        }
+        _ => {
+            points.try_for_each(|point| out.write_all(point.map(f64::to_le_bytes).as_flattened()))?;
+            polygons(mesh).try_for_each(|polygon| write_polygon(polygon, u32::to_le_bytes, longest, out))
+        }
     }
-    polygons(mesh).try_for_each(|polygon| write_polygon(polygon, format, longest, out))
 }
 
 fn write_header(
@@ -34,22 +48,12 @@ fn write_header(
     )
 }
 
-fn write_coordinates(point: [f64; 3], format: MeshFormat, out: &mut dyn Write) -> io::Result<()> {
-    match format {
-        MeshFormat::PlyLittleEndian => point.iter().try_for_each(|x| out.write_all(&x.to_le_bytes())),
-        MeshFormat::PlyBigEndian => point.iter().try_for_each(|x| out.write_all(&x.to_be_bytes())),
-        _ => write_point(out, point),
-    }
-}
-
-fn write_polygon(polygon: &[u32], format: MeshFormat, longest: usize, out: &mut dyn Write) -> io::Result<()> {
-    if format == MeshFormat::PlyText {
-        return write_line(out, polygon);
-    }
-    let bytes = |x: u32| match format {
-        MeshFormat::PlyBigEndian => x.to_be_bytes(),
-        _ => x.to_le_bytes(),
-    };
+fn write_polygon(
+    polygon: &[u32],
+    bytes: fn(u32) -> [u8; 4],
+    longest: usize,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     match u8::try_from(longest) {
         Ok(_) => out.write_all(&[polygon.len() as u8])?,
         Err(_) => out.write_all(&bytes(polygon.len() as u32))?,

@@ -6,6 +6,7 @@ use crate::files::format::{MeshFormat, SurfaceFile};
 use crate::files::precision::{Digits, Precision};
 use crate::files::source::{At, MARK, Source};
 use crate::files::weld::{Bits, Weld, Welder};
+use crate::files::words::{Words, words_of};
 use crate::{Cells, Surface};
 
 /// The number of facets that a binary header announces; `None` when the file is too short to have one.
@@ -121,27 +122,27 @@ struct TextReader {
 
 impl TextReader {
     fn line(&mut self, at: At<'_>, line: &str, facets: &mut Facets<f64>) -> Result<(), MeshFileError> {
-        let mut words = line.split_whitespace();
+        let mut words = words_of(line);
         while let Some(word) = words.next() {
-            let keyword = word.to_ascii_lowercase();
-            match (self.state, keyword.as_str()) {
+            let is = |keyword| word.eq_ignore_ascii_case(keyword);
+            match self.state {
                 // The name, all that follows, is free.
-                (State::Outside, "solid") => return self.enter(State::Solid),
-                (State::Solid, "endsolid") => return self.enter(State::Outside),
-                (State::Solid, "facet") => {
+                State::Outside if is("solid") => return self.enter(State::Solid),
+                State::Solid if is("endsolid") => return self.enter(State::Outside),
+                State::Solid if is("facet") => {
                     keep(at, words.next(), "normal")?;
                     for _ in 0..3 {
-                        number(at, words.next())?;
+                        number(at, &mut words)?;
                     }
                     self.state = State::Facet;
                 }
-                (State::Facet, "outer") => {
+                State::Facet if is("outer") => {
                     keep(at, words.next(), "loop")?;
                     self.state = State::Loop;
                 }
-                (State::Loop, "vertex") => self.vertex(at, &mut words)?,
-                (State::Loop, "endloop") => self.close(at, facets)?,
-                (State::LoopDone, "endfacet") => self.state = State::Solid,
+                State::Loop if is("vertex") => self.vertex(at, &mut words)?,
+                State::Loop if is("endloop") => self.close(at, facets)?,
+                State::LoopDone if is("endfacet") => self.state = State::Solid,
                 _ => return Err(at.expected(self.state.expected(), word)),
             }
         }
@@ -153,14 +154,10 @@ impl TextReader {
         Ok(())
     }
 
-    fn vertex<'w>(
-        &mut self,
-        at: At<'_>,
-        words: &mut impl Iterator<Item = &'w str>,
-    ) -> Result<(), MeshFileError> {
+    fn vertex(&mut self, at: At<'_>, words: &mut Words<'_>) -> Result<(), MeshFileError> {
         let mut corner = [0.; 3];
         for x in &mut corner {
-            *x = at.coordinate(words.next(), &mut self.digits)?;
+            *x = at.coordinate(words, &mut self.digits)?;
         }
         self.corners.push(corner);
         Ok(())
@@ -184,8 +181,11 @@ fn keep(at: At<'_>, word: Option<&str>, expected: &'static str) -> Result<(), Me
 }
 
 /// A part of a normal; NaN is what exporters write for facets without area.
-fn number(at: At<'_>, word: Option<&str>) -> Result<(), MeshFileError> {
-    let word = word.unwrap_or("");
+fn number(at: At<'_>, words: &mut Words<'_>) -> Result<(), MeshFileError> {
+    if words.decimal().is_some() {
+        return Ok(());
+    }
+    let word = words.next().unwrap_or("");
     word.parse::<f64>().map(|_| ()).map_err(|_| at.expected("a number", word))
 }
 

@@ -2,8 +2,8 @@
 
 use super::{FACET, HEADER};
 use crate::files::polygons::{PolygonMesh, polygons};
+use crate::files::text::TextWriter;
 use crate::measure::{cross, dot, sub, xyz};
-use crate::obj::write_number;
 use std::io::{self, Write};
 
 /// The header does not begin with `solid`, so that no reader takes the file for a text.
@@ -28,24 +28,26 @@ pub(crate) fn write_binary(mesh: &impl PolygonMesh, out: &mut dyn Write) -> io::
 
 /// Coordinates in the shortest form that reads back as the same `f64`.
 pub(crate) fn write_text(mesh: &impl PolygonMesh, out: &mut dyn Write) -> io::Result<()> {
-    out.write_all(b"solid\n")?;
+    let mut out = TextWriter::new(out);
+    out.push("solid\n");
     for triangle in polygons(mesh) {
         let corners = corners(mesh, triangle);
-        write_vector(out, "facet normal", normal(corners))?;
-        out.write_all(b"outer loop\n")?;
-        corners.into_iter().try_for_each(|corner| write_vector(out, "vertex", corner))?;
-        out.write_all(b"endloop\nendfacet\n")?;
+        write_vector(&mut out, "facet normal", normal(corners))?;
+        out.push("outer loop\n");
+        corners.into_iter().try_for_each(|corner| write_vector(&mut out, "vertex", corner))?;
+        out.push("endloop\nendfacet\n");
     }
-    out.write_all(b"endsolid\n")
+    out.push("endsolid\n");
+    out.finish()
 }
 
-fn write_vector(out: &mut dyn Write, keyword: &str, vector: [f64; 3]) -> io::Result<()> {
-    out.write_all(keyword.as_bytes())?;
+fn write_vector(out: &mut TextWriter<'_>, keyword: &str, vector: [f64; 3]) -> io::Result<()> {
+    out.push(keyword);
     for x in vector {
-        out.write_all(b" ")?;
-        write_number(out, x)?;
+        out.push(" ");
+        out.number(x);
     }
-    out.write_all(b"\n")
+    out.end_line()
 }
 
 fn corners(mesh: &impl PolygonMesh, triangle: &[u32]) -> [[f64; 3]; 3] {
