@@ -70,6 +70,11 @@ impl Triangulator {
         out: &mut Vec<[u32; 3]>,
     ) -> Result<Quality, TriangulateError> {
         self.flat.load(points, loops)?;
+        if let Some(triangle) = self.flat.triangle() {
+            out.push(smallest_first(triangle));
+            return Ok(Quality::Proper);
+        }
+        self.flat.lay(points);
         self.corners.clear();
         let quality = self.fill();
         let first = out.len();
@@ -82,10 +87,6 @@ impl Triangulator {
     fn fill(&mut self) -> Quality {
         match (self.flat.n_loops(), self.flat.len()) {
             (0, _) => return Quality::Proper,
-            (1, 3) => {
-                self.corners.push([0, 1, 2]);
-                return Quality::Proper;
-            }
             (1, 4) => {
                 if let Some(two) = quadrilateral(&self.flat) {
                     self.corners.extend(two);
@@ -276,6 +277,7 @@ mod tests {
     fn check_ways_agree(points: &Points, loops: &[Vec<u32>]) {
         let mut triangulator = Triangulator::new();
         triangulator.flat.load(points, loops.iter().map(Vec::as_slice)).expect("well-formed");
+        triangulator.flat.lay(points);
         assert!(triangulator.flat.identify());
         assert!(triangulator.delaunay());
         let through_spade = sorted(&triangulator.corners);
@@ -304,6 +306,7 @@ mod tests {
             });
             let loops: Vec<Vec<u32>> = loops.collect();
             triangulator.flat.load(&points, loops.iter().map(Vec::as_slice)).expect("well-formed");
+            triangulator.flat.lay(&points);
             fan(&triangulator.flat, &mut triangulator.corners);
             assert_eq!(
                 check_laws(loops.iter().map(Vec::as_slice), &triangulator.corners),

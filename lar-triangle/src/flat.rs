@@ -27,7 +27,7 @@ pub(crate) struct Flat {
 }
 
 impl Flat {
-    /// Reads a face.
+    /// Reads the corners of a face.
     pub(crate) fn load<'a>(
         &mut self,
         points: &Points,
@@ -46,9 +46,21 @@ impl Flat {
             self.ids.extend_from_slice(cycle);
             self.starts.push(small(self.ids.len())?);
         }
-        self.place(points)?;
+        match self.ids.iter().find(|&&id| id as usize >= points.len()) {
+            None => Ok(()),
+            Some(&id) => Err(TriangulateError::NoSuchVertex { vertex: VertexId(id), points: points.len() }),
+        }
+    }
+
+    /// Lays the corners that were read into the plane.
+    pub(crate) fn lay(&mut self, points: &Points) {
+        self.place(points);
         self.project();
-        Ok(())
+    }
+
+    /// The points of a face that is one triangle.
+    pub(crate) fn triangle(&self) -> Option<[u32; 3]> {
+        self.ids[..].try_into().ok()
     }
 
     /// Number of loops.
@@ -95,13 +107,10 @@ impl Flat {
     }
 
     /// Positions of the corners, scaled by a power of two to at most 1 (for extreme magnitudes, to at most 2^24).
-    fn place(&mut self, points: &Points) -> Result<(), TriangulateError> {
+    fn place(&mut self, points: &Points) {
         self.xyz.clear();
         let mut largest = 0f64;
         for &id in &self.ids {
-            if id as usize >= points.len() {
-                return Err(TriangulateError::NoSuchVertex { vertex: VertexId(id), points: points.len() });
-            }
             let mut at = [0.0; 3];
             for (to, &from) in at.iter_mut().zip(points.point(id as usize)) {
                 *to = if from.is_finite() { from } else { 0.0 };
@@ -113,7 +122,6 @@ impl Flat {
         for x in self.xyz.as_flattened_mut() {
             *x = flush(*x * scale);
         }
-        Ok(())
     }
 
     /// Drops the dominant axis of the outer loop's normal.

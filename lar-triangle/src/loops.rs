@@ -47,6 +47,12 @@ impl FaceLoops {
                     walk.arcs.push(if sign > 0 { (tail, head) } else { (head, tail) });
                 }
             }
+            walk.arcs.sort_unstable();
+            if let Some(triangle) = walk.triangle() {
+                all.loops.push(&triangle);
+                all.face_offsets.push(all.loops.len() as u32);
+                continue;
+            }
             walk.check(FaceId(f))?;
             walk.cut();
             walk.outer_first(complex);
@@ -89,13 +95,16 @@ fn edge_ends(complex: &ChainComplex) -> Result<Vec<(u32, u32)>, TriangulateError
     if complex.dim() < 2 {
         return Err(TriangulateError::ComplexDimension { dim: complex.dim(), needed: 2 });
     }
-    let ends = |(e, entries): (u32, Vec<(u32, i8)>)| match entries[..] {
-        [(tail, -1), (head, 1)] | [(head, 1), (tail, -1)] => Ok((tail, head)),
-        _ => Err(TriangulateError::BadEdge { edge: EdgeId(e), entries }),
-    };
     let columns = columns(complex, 1)?;
-    let entries = columns.outer_iterator().map(|column| column.iter().map(|(i, &x)| (i as u32, x)).collect());
-    (0u32..).zip(entries).map(ends).collect()
+    let mut ends = Vec::with_capacity(columns.cols());
+    for (e, column) in (0u32..).zip(columns.outer_iterator()) {
+        let ((&[tail, head], [-1, 1]) | (&[head, tail], [1, -1])) = (column.indices(), column.data()) else {
+            let entries = column.iter().map(|(i, &x)| (i as u32, x)).collect();
+            return Err(TriangulateError::BadEdge { edge: EdgeId(e), entries });
+        };
+        ends.push((tail, head));
+    }
+    Ok(ends)
 }
 
 /// ∂p by columns.
@@ -120,7 +129,7 @@ pub(crate) fn columns(
 /// Buffers for walking the boundary of one face.
 #[derive(Default)]
 struct Walk {
-    /// Directed edges, sorted by their tail once checked.
+    /// Directed edges, sorted by their tail.
     arcs: Vec<(u32, u32)>,
     heads: Vec<u32>,
     used: Vec<bool>,
@@ -133,9 +142,19 @@ struct Walk {
 }
 
 impl Walk {
+    /// The loop of three arcs that make one.
+    fn triangle(&self) -> Option<[u32; 3]> {
+        let &[(a, to_a), (b, to_b), (c, to_c)] = &self.arcs[..] else { return None };
+        match [to_a, to_b, to_c] {
+            heads if heads == [b, c, a] => Some([a, b, c]),
+            heads if heads == [c, a, b] => Some([a, c, b]),
+            _ => None,
+        }
+        .filter(|_| a < b && b < c)
+    }
+
     /// Checks that every vertex is entered as often as it is left.
     fn check(&mut self, face: FaceId) -> Result<(), TriangulateError> {
-        self.arcs.sort_unstable();
         self.heads.clear();
         self.heads.extend(self.arcs.iter().map(|a| a.1));
         self.heads.sort_unstable();

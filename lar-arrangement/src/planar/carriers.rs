@@ -60,18 +60,19 @@ impl Carriers {
         for (&input, carrier) in first.iter().zip(0..) {
             number[input as usize] = carrier;
         }
-        let ends: Vec<[u32; 2]> = first.iter().map(|&input| lines.ends[input as usize]).collect();
-        let member = |(input, s): (usize, &Segment)| {
-            let carrier = number[lines.of[input] as usize];
-            Member { input: input as u32, carrier, ends: s.ends, reversed: s.reversed }
+        let ends = parallel::map_light(first.len(), |i| lines.ends[first[i] as usize]);
+        let member = |input: usize| {
+            let Segment { ends, reversed, .. } = segments[input];
+            Member { input: input as u32, carrier: number[lines.of[input] as usize], ends, reversed }
         };
-        let has_length = |(_, s): &(usize, &Segment)| s.ends[0] != s.ends[1];
+        let mut members = parallel::map_light(segments.len(), member);
+        members.retain(|member| member.ends[0] != member.ends[1]);
         Self {
-            positions: ends.iter().map(|ends| ends.map(|p| points[p as usize])).collect(),
+            positions: parallel::map_light(ends.len(), |i| ends[i].map(|p| points[p as usize])),
             ends,
-            rank: first.iter().map(|&input| lines.rank[input as usize]).collect(),
+            rank: parallel::map_light(first.len(), |i| lines.rank[first[i] as usize]),
             stops: lines.stops.iter().map(|&(input, p)| (number[input as usize], p)).collect(),
-            members: segments.iter().enumerate().filter(has_length).map(member).collect(),
+            members,
             points,
         }
     }

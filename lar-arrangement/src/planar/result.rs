@@ -1,6 +1,6 @@
 //! The driver and the result of a planar arrangement.
 
-use crate::boxes::BoxTree;
+use crate::boxes::{Aabb, BoxTree};
 use crate::error::ArrangementError;
 use crate::grid::Grid;
 use crate::parallel;
@@ -20,6 +20,7 @@ use crate::subdivision::Cycles;
 use crate::winding::Windings;
 use lar_core::{Biconnected, Cells, ChainComplex, EdgeId, FaceId, Graph, VertexId};
 use std::num::NonZeroUsize;
+use std::ops::Range;
 use std::sync::OnceLock;
 
 /// The stages, and their usual shares in the time.
@@ -231,22 +232,26 @@ fn fitted_grid(drawing: &Drawing) -> Result<Grid, ArrangementError> {
             return Err(ArrangementError::NoSuchPoint { segment, vertex: vertex.into(), n_vertices });
         }
     }
-    let (mut lo, mut hi) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for (v, p) in drawing.points.iter().enumerate() {
-        for k in 0..2 {
-            if !p[k].is_finite() {
-                return Err(ArrangementError::NotFinite {
-                    solid: "drawing".to_owned(),
-                    vertex: (v as u32).into(),
-                    value: p[k],
-                });
-            }
-            lo[k] = lo[k].min(p[k]);
-            hi[k] = hi[k].max(p[k]);
-        }
-    }
+    let (n_chunks, range) = parallel::chunks(n_vertices, 1 << 14);
+    let boxes = parallel::map(n_chunks, |chunk| finite_box(drawing, range(chunk)));
+    let hull = boxes.into_iter().try_fold(Aabb::EMPTY, |hull, part| part.map(|part| hull.joined(&part)))?;
+    let Aabb { lo, hi } = hull;
     let corner = |c: [f64; 2]| if lo[0] <= hi[0] { [c[0], c[1], 0.0] } else { [0.0; 3] };
     Ok(Grid::fitted(corner(lo), corner(hi)))
+}
+
+/// The box of some points, which must be finite.
+fn finite_box(drawing: &Drawing, range: Range<usize>) -> Result<Aabb<2>, ArrangementError> {
+    let mut hull = Aabb::EMPTY;
+    for v in range {
+        let p = drawing.points.point(v);
+        if let Some(&value) = p.iter().find(|x| !x.is_finite()) {
+            let solid = "drawing".to_owned();
+            return Err(ArrangementError::NotFinite { solid, vertex: (v as u32).into(), value });
+        }
+        hull = hull.joined(&Aabb { lo: [p[0], p[1]], hi: [p[0], p[1]] });
+    }
+    Ok(hull)
 }
 
 impl PlanarArrangement {
