@@ -118,8 +118,10 @@ struct Reader<'a> {
     faces: Cells,
     /// The face being read.
     face: Vec<u32>,
-    /// Per face: its line, and its group.
-    origins: Vec<(usize, u32)>,
+    /// Faces that name vertices further down, with their lines.
+    forward: Vec<(u32, usize)>,
+    /// The first face of each run of faces of one group, and the group.
+    runs: Vec<(u32, u32)>,
     /// Names of groups in first-seen order; group 0 is the file itself.
     names: Vec<String>,
     group_of: FxHashMap<String, u32>,
@@ -134,7 +136,8 @@ impl<'a> Reader<'a> {
             digits: Digits::default(),
             faces: Cells::new(),
             face: Vec::new(),
-            origins: Vec::new(),
+            forward: Vec::new(),
+            runs: Vec::new(),
             names: vec![String::new()],
             group_of: FxHashMap::default(),
             group: 0,
@@ -186,8 +189,15 @@ impl<'a> Reader<'a> {
             return Err(ObjError::ShortFace { file: self.path(), line, found });
         }
         self.check_size(line, self.faces.indices().len() + found)?;
+        let number = u32::try_from(self.faces.len()).expect("there are fewer faces than corners");
+        let n_vertices = self.n_vertices();
+        if self.face.iter().any(|&v| v as usize >= n_vertices) {
+            self.forward.push((number, line));
+        }
+        if self.runs.last().is_none_or(|run| run.1 != self.group) {
+            self.runs.push((number, self.group));
+        }
         self.faces.push(&self.face);
-        self.origins.push((line, self.group));
         Ok(())
     }
 
@@ -223,8 +233,8 @@ impl<'a> Reader<'a> {
             return Err(ObjError::NoFaces { file: self.path() });
         }
         let n_vertices = self.n_vertices();
-        for (face, &(line, _)) in self.faces.iter().zip(&self.origins) {
-            if let Some(&v) = face.iter().find(|&&v| v as usize >= n_vertices) {
+        for &(face, line) in &self.forward {
+            if let Some(&v) = self.faces[face as usize].iter().find(|&&v| v as usize >= n_vertices) {
                 let index = i64::from(v) + 1;
                 return Err(ObjError::VertexOutOfRange { file: self.path(), line, index, n_vertices });
             }
@@ -241,7 +251,10 @@ impl<'a> Reader<'a> {
         let points = Points::from_columns(3, self.coords);
         let mut place = vec![None; self.names.len()];
         let mut groups: Vec<(Surface, FxHashMap<u32, u32>)> = Vec::new();
-        for (face, &(_, group)) in self.faces.iter().zip(&self.origins) {
+        let ends = self.runs.iter().skip(1).map(|run| run.0 as usize).chain([self.faces.len()]);
+        let runs = self.runs.iter().zip(ends).map(|(&(first, group), end)| (first as usize..end, group));
+        for (face, group) in runs.flat_map(|(faces, group)| faces.map(move |face| (face, group))) {
+            let face = &self.faces[face];
             let at = *place[group as usize].get_or_insert_with(|| {
                 groups
                     .push((Surface::new(&*self.names[group as usize], Points::new(3)), FxHashMap::default()));
