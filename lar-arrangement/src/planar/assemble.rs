@@ -115,7 +115,7 @@ impl Faces {
         parallel::each(parts.enumerate().collect(), |(chunk, ((half_edges, rows), signs))| {
             let mut part = Part { half_edges, rows, signs };
             range(chunk).for_each(|face| {
-                part.push_face(ends, &subdivision, face, (columns[face + 1] - columns[face]) as usize)
+                part.push_face(ends, &subdivision, face, (columns[face + 1] - columns[face]) as usize);
             });
         });
         let (face_loops, _) = subdivision.cycles_of_face.into_parts();
