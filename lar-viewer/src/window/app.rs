@@ -5,7 +5,7 @@ use super::exhibit::Exploration;
 use super::loader::{Loaded, Loader};
 use super::painter::Painter;
 use super::subject::Subject;
-use crate::{Camera, Scene, View, ViewerError};
+use crate::{Scene, View, ViewerError};
 use std::sync::Arc;
 use std::time::Instant;
 use winit::application::ApplicationHandler;
@@ -17,13 +17,18 @@ use winit::window::{Window, WindowId};
 /// Size of a new window, in logical pixels.
 const SIZE: LogicalSize<u32> = LogicalSize::new(1280, 780);
 
-/// Aspect of the picture in a new window, to which a camera that nobody chose is fitted.
-const ASPECT: f64 = 1.1;
-
 /// What a window is opened on.
 pub(crate) enum Contents {
     Scene(Box<(Scene, View)>),
     Complex(Box<Exploration>),
+}
+
+/// What a window begins with.
+struct Waiting {
+    view: View,
+    subject: Subject,
+    /// Nobody chose the camera.
+    fit: bool,
 }
 
 /// The state of [`super::view`] and [`super::explore`].
@@ -31,7 +36,7 @@ pub(crate) struct App {
     title: String,
     display: OwnedDisplayHandle,
     /// The view and the subject, until there is a window to show them in.
-    waiting: Option<(View, Subject)>,
+    waiting: Option<Waiting>,
     loader: Option<Loader>,
     painter: Option<Painter>,
     result: Result<(), ViewerError>,
@@ -43,20 +48,22 @@ impl App {
         title: String,
         event_loop: &EventLoop<Loaded>,
     ) -> Result<Self, ViewerError> {
-        let (view, subject, loader) = match contents {
-            Contents::Scene(shown) => (shown.1, Subject::scene(shown.0), None),
+        let (waiting, loader) = match contents {
+            Contents::Scene(shown) => {
+                (Waiting { view: shown.1, subject: Subject::scene(shown.0), fit: false }, None)
+            }
             Contents::Complex(exploration) => {
                 let Exploration { session, queries, source, files, camera, .. } = *exploration;
                 let subject = Subject::complex(session, queries)?;
-                let view = first_view(&subject, camera);
+                let view = View { camera: camera.unwrap_or_default(), ..View::default() };
                 let proxy = event_loop.create_proxy();
                 // Without a loop there is no one to tell.
                 let loader = Loader::start(source, files, move |loaded| _ = proxy.send_event(loaded));
-                (view, subject, Some(loader))
+                (Waiting { view, subject, fit: camera.is_none() }, Some(loader))
             }
         };
         let display = event_loop.owned_display_handle();
-        Ok(Self { title, display, waiting: Some((view, subject)), loader, painter: None, result: Ok(()) })
+        Ok(Self { title, display, waiting: Some(waiting), loader, painter: None, result: Ok(()) })
     }
 
     /// The error that closed the window, if one did.
@@ -65,10 +72,10 @@ impl App {
     }
 
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<(), ViewerError> {
-        let Some((view, subject)) = self.waiting.take() else { return Ok(()) };
+        let Some(Waiting { view, subject, fit }) = self.waiting.take() else { return Ok(()) };
         let attributes = Window::default_attributes().with_title(self.title.as_str()).with_inner_size(SIZE);
         let window = event_loop.create_window(attributes).map_err(|e| ViewerError::Window(e.to_string()))?;
-        let controls = |adapter| Controls::new(view, subject, adapter);
+        let controls = |adapter| Controls::new(view, subject, adapter, fit);
         let painter = Painter::new(Arc::new(window), &self.display, controls)?;
         painter.window().request_redraw();
         self.painter = Some(painter);
@@ -96,11 +103,6 @@ impl App {
         }
         Ok(())
     }
-}
-
-fn first_view(subject: &Subject, camera: Option<Camera>) -> View {
-    let view = subject.view(View::default());
-    View { camera: camera.unwrap_or_else(|| subject.fit(&view, ASPECT)), ..view }
 }
 
 impl ApplicationHandler<Loaded> for App {

@@ -86,10 +86,13 @@ pub(crate) struct Controls {
     adapter: String,
     /// Width by height of the picture.
     aspect: f64,
+    /// Fits the camera as soon as that is known.
+    fit: bool,
 }
 
 impl Controls {
-    pub(crate) fn new(view: View, subject: Subject, adapter: String) -> Self {
+    /// `fit` fits the camera when the size of the picture is known; drawings in the plane are then seen from above.
+    pub(crate) fn new(view: View, subject: Subject, adapter: String, fit: bool) -> Self {
         Self {
             view,
             subject,
@@ -101,6 +104,7 @@ impl Controls {
             help: false,
             adapter,
             aspect: 1.0,
+            fit,
         }
     }
 
@@ -112,6 +116,9 @@ impl Controls {
         let commands = self.side_panels(ui);
         let response = Self::picture(ui, picture);
         self.aspect = f64::from(response.rect.width().max(1.0) / response.rect.height().max(1.0));
+        if std::mem::take(&mut self.fit) {
+            self.fit_at_first();
+        }
         self.navigation.mouse(ui, &response, &mut self.view.camera);
         if !(commands.is_empty() && actions.is_empty()) {
             // The panels of this frame were drawn before what they ask for is done.
@@ -139,6 +146,14 @@ impl Controls {
         self.view = self.subject.view(self.view);
         let dragging = ui.input(|i| i.pointer.any_down());
         Asked { area: response.rect, capture, click: click(&response), load, close, dragging }
+    }
+
+    fn fit_at_first(&mut self) {
+        if self.subject.is_plane() {
+            self.navigation.toggle_plane(&mut self.view.camera);
+        }
+        self.view = self.subject.view(self.view);
+        self.view.camera = self.subject.fit(&self.view, self.aspect);
     }
 
     /// The bars above and below.

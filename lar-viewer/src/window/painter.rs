@@ -235,9 +235,12 @@ impl Painter {
     }
 }
 
-fn egui_state(window: &Window, context: &Context) -> egui_winit::State {
-    let max_side = usize::try_from(context.limits.max_texture_dimension_2d).ok();
+fn egui_state(window: &Window, gpu: &Context) -> egui_winit::State {
+    let max_side = usize::try_from(gpu.limits.max_texture_dimension_2d).ok();
     let scale = Some(window.scale_factor() as f32);
     let root = egui::ViewportId::ROOT;
-    egui_winit::State::new(egui::Context::default(), root, window, scale, window.theme(), max_side)
+    let context = egui::Context::default();
+    // On a slow driver press and release may be frames apart: only moving makes a click a drag.
+    context.options_mut(|options| options.input_options.max_click_duration = f64::INFINITY);
+    egui_winit::State::new(context, root, window, scale, window.theme(), max_side)
 }

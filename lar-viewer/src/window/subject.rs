@@ -80,6 +80,11 @@ impl Subject {
         View { explode: session.explode.explosion(), background: session.background, clip, ..view }
     }
 
+    /// Whether it is a complex in the plane.
+    pub(crate) fn is_plane(&self) -> bool {
+        self.explored.as_ref().is_some_and(|e| e.session.data().complex().points().dim() == 2)
+    }
+
     /// The camera with everything visible in the picture; the whole scene when nothing is.
     pub(crate) fn fit(&self, view: &View, aspect: f64) -> Camera {
         let points = self.scene.visible_points(&self.looks, view.explode);

@@ -60,9 +60,7 @@ fn bar() -> (ChainComplex, CellData) {
 }
 
 fn window(subject: Subject) -> Window {
-    let view = subject.view(View::default());
-    let view = View { camera: subject.fit(&view, 1.0), ..view };
-    let state = State { controls: Controls::new(view, subject, "test".into()), asked: None };
+    let state = State { controls: Controls::new(View::default(), subject, "test".into(), true), asked: None };
     let show = |ui: &mut Ui, state: &mut State| {
         state.asked = Some(state.controls.show(ui, egui::TextureId::User(0)));
     };
@@ -333,6 +331,20 @@ fn the_camera_is_copied_as_arguments() {
     window.step();
     let copied = window.state().controls.message.clone();
     assert_eq!(copied, format!("copied: {}", camera(&window).arguments()));
+}
+
+#[test]
+fn drawings_are_seen_from_above() {
+    let square = ChainComplex::from_model(&cuboid_grid(&[2, 1])).unwrap();
+    let session = Session::new(CellData::new(square).unwrap());
+    let window = window(Subject::complex(session, Box::new(crate::NoQueries)).unwrap());
+    assert_eq!(camera(&window).orientation, StandardView::Top.orientation());
+    assert_eq!(camera(&window).projection, Projection::Orthographic);
+    let area = window.state().asked.as_ref().unwrap().area;
+    let height = f64::from(area.height());
+    let corners = [[0.0; 3], [2.0, 1.0, 0.0]].map(|p| camera(&window).project(p, height).unwrap());
+    let part = (corners[1][0] - corners[0][0]) / f64::from(area.width());
+    assert!((0.9..1.0).contains(&part), "the drawing fills {part} of the width");
 }
 
 #[test]
