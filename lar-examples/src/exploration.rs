@@ -1,8 +1,10 @@
 //! Arrangements as what a window explores: cells with provenance and triangles, Booleans, gift wrapping.
 
 use crate::CommandError;
+use lar_arrangement::planar::PlanarArrangement;
 use lar_arrangement::{Arrangement, Expression, FaceSide, FillRule};
 use lar_core::{CellId, Chain, ChainError, FaceId};
+use lar_triangle::{FaceLoops, Triangulator};
 use lar_viewer::session::WrapStep;
 use lar_viewer::{CellData, FaceParent, Provenance, Queries};
 use std::collections::BTreeSet;
@@ -13,6 +15,19 @@ pub(crate) fn cell_data(arrangement: &Arrangement) -> Result<CellData, CommandEr
     let data = CellData::new(arrangement.complex().clone())?;
     let data = data.with_triangles(triangles.triangles, triangles.face_offsets)?;
     Ok(data.with_exterior().with_provenance(provenance(arrangement)))
+}
+
+/// The faces, edges and vertices of a partition of the plane; its exterior is face 0.
+pub(crate) fn plane_data(arrangement: &PlanarArrangement) -> Result<CellData, CommandError> {
+    let complex = arrangement.complex();
+    let loops = FaceLoops::new(complex)?;
+    let (mut triangles, mut offsets) = (Vec::new(), vec![0, 0]);
+    let mut triangulator = Triangulator::new();
+    for f in (1..=arrangement.n_faces()).map(|f| FaceId(f as u32)) {
+        triangulator.face(complex.points(), loops.face(f), &mut triangles)?;
+        offsets.push(triangles.len() as u32);
+    }
+    Ok(CellData::new(complex.clone())?.with_exterior().with_triangles(triangles, offsets)?)
 }
 
 fn provenance(arrangement: &Arrangement) -> Provenance {

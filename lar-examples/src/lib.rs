@@ -29,6 +29,8 @@ mod guide;
 mod mesh;
 mod output;
 pub mod plane;
+#[cfg(feature = "viewer")]
+pub mod primitives;
 mod program;
 mod random;
 pub mod scenes;

@@ -6,7 +6,7 @@ use crate::scenes::SceneError;
 use lar_arrangement::Arrangement;
 use lar_core::{CellId, ChainComplex, EdgeId, FaceId, Model, Points, Surface, TriangleMesh};
 use lar_triangle::{TriangulateError, Triangulation, triangulate};
-use lar_viewer::{CellRef, CellShape};
+use lar_viewer::{CellRef, CellShape, surface_shape};
 
 /// A complex and the triangles of its faces.
 #[derive(Clone, Debug)]
@@ -127,15 +127,7 @@ fn edge(complex: &ChainComplex, edge: EdgeId) -> CellShape {
 
 /// The faces of an input surface that bound it: their triangles and the edges of their loops.
 pub(crate) fn surface(surface: &Surface, index: u32) -> Result<CellShape, TriangulateError> {
-    let mesh = crate::mesh::of_surface(surface)?;
-    let edges =
-        (0..surface.n_faces()).filter(|&f| surface.coefficient(f) != 0).flat_map(|f| sides(surface, f));
-    Ok(CellShape {
-        name: surface.name.clone(),
-        cell: CellRef { dim: 3, index },
-        mesh,
-        edges: segments(surface, edges.collect()),
-    })
+    Ok(surface_shape(surface, crate::mesh::of_surface(surface)?, CellRef { dim: 3, index }))
 }
 
 /// Each face of a surface by itself.

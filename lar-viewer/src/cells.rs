@@ -1,7 +1,7 @@
 //! From cells to drawables: exploded families of cells, and the axis frame.
 
-use crate::{CellRef, Coloring, Drawable, GroupId, INK, Rgb, Scene, ViewerError, scene::point3};
-use lar_core::{Points, TriangleMesh};
+use crate::{CellRef, Coloring, Drawable, GroupId, INK, Rgb, Scene, ViewerError, push_arrow, scene::point3};
+use lar_core::TriangleMesh;
 
 /// What is seen of one cell: the triangles of its boundary and its real edges, never those of the triangulation.
 #[derive(Clone, Debug, PartialEq)]
@@ -107,11 +107,6 @@ fn vertex_mean(cell: &CellShape) -> [f64; 3] {
 
 /// Colours of the axes x, y, z: red, green, blue.
 const AXIS_COLORS: [Rgb; 3] = [[0.90, 0.25, 0.22], [0.25, 0.68, 0.30], [0.22, 0.42, 0.92]];
-/// Length of an arrow head, and its radius, in parts of the axis.
-const HEAD: [f64; 2] = [0.09, 0.026];
-/// Sides of an arrow head's cone.
-const HEAD_SIDES: u32 = 32;
-
 /// Adds the axes of the coordinate frame, arrows of this length at the origin: x red, y green, z blue. They do not
 /// move when the scene is exploded.
 ///
@@ -126,38 +121,34 @@ const HEAD_SIDES: u32 = 32;
 /// `Coordinate` when the length is not finite.
 #[doc(alias = "GLFrame")]
 pub fn push_axes(scene: &mut Scene, length: f64) -> Result<(), ViewerError> {
-    for (k, (color, name)) in AXIS_COLORS.into_iter().zip(["x axis", "y axis", "z axis"]).enumerate() {
-        let along = |t: f64| std::array::from_fn(|i| if i == k { t * length } else { 0.0 });
-        let shaft = [[0.0; 3], along(1.0 - HEAD[0])];
-        scene.push(Drawable::lines(name, [shaft]).color(color).width(3.0).unclipped())?;
-        scene.push(Drawable::mesh(name, arrow_head(k, length)).color(color).unclipped())?;
-    }
-    Ok(())
+    (0..3).try_for_each(|k| push_axis(scene, k, length))
 }
 
-/// A cone with its tip at `length` on axis `k`: tip, centre of the base, then the base's corners.
-fn arrow_head(k: usize, length: f64) -> TriangleMesh {
-    let place = |t: f64, u: f64, v: f64| {
-        let mut p = [0.0; 3];
-        (p[k], p[(k + 1) % 3], p[(k + 2) % 3]) = (t * length, u * length, v * length);
-        p
-    };
-    let base = 1.0 - HEAD[0];
-    let mut corners = vec![place(1.0, 0.0, 0.0), place(base, 0.0, 0.0)];
-    corners.extend((0..HEAD_SIDES).map(|i| {
-        let (sin, cos) = (std::f64::consts::TAU * f64::from(i) / f64::from(HEAD_SIDES)).sin_cos();
-        place(base, HEAD[1] * cos, HEAD[1] * sin)
-    }));
-    let sides = (0..HEAD_SIDES).flat_map(|i| {
-        let (a, b) = (2 + i, 2 + (i + 1) % HEAD_SIDES);
-        [[0, a, b], [1, b, a]]
-    });
-    TriangleMesh { points: Points::from_xyz(&corners), triangles: sides.collect() }
+/// Adds the axes x and y of the plane, as [`push_axes`] does.
+///
+/// ```
+/// let mut scene = lar_viewer::Scene::new();
+/// lar_viewer::push_plane_axes(&mut scene, 1.5)?;
+/// assert_eq!(scene.drawables().len(), 4);
+/// # Ok::<(), lar_viewer::ViewerError>(())
+/// ```
+///
+/// # Errors
+/// `Coordinate` when the length is not finite.
+#[doc(alias = "GLFrame2")]
+pub fn push_plane_axes(scene: &mut Scene, length: f64) -> Result<(), ViewerError> {
+    (0..2).try_for_each(|k| push_axis(scene, k, length))
+}
+
+fn push_axis(scene: &mut Scene, k: usize, length: f64) -> Result<(), ViewerError> {
+    let tip = std::array::from_fn(|i| if i == k { length } else { 0.0 });
+    push_arrow(scene, ["x axis", "y axis", "z axis"][k], [0.0; 3], tip, AXIS_COLORS[k])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use lar_core::Points;
 
     fn segment_cell(edges: &[[[f64; 3]; 2]]) -> CellShape {
         CellShape {
@@ -201,20 +192,5 @@ mod tests {
         let [first, second] = [0, 1].map(|i| (Coloring::Cyclic.color(i), 0.5));
         assert_eq!(colors, [first, (INK, 1.0), second, (INK, 1.0)]);
         assert_eq!(scene.drawables()[3].cell_ref(), Some(CellRef { dim: 2, index: 7 }));
-    }
-
-    #[test]
-    fn arrow_heads_are_closed_and_point_along_their_axis() {
-        for k in 0..3 {
-            let head = arrow_head(k, 2.0);
-            assert_eq!(head.points.xyz(0)[k], 2.0);
-            let volume: f64 = head.triangles.iter().map(|t| signed_volume(&head.points, *t)).sum();
-            assert!(0.0 < volume, "outward orientation");
-        }
-    }
-
-    fn signed_volume(points: &Points, triangle: [u32; 3]) -> f64 {
-        let [a, b, c] = triangle.map(|v| glam::DVec3::from(points.xyz(v as usize)));
-        a.dot(b.cross(c)) / 6.0
     }
 }

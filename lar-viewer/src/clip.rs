@@ -40,6 +40,11 @@ impl Clip {
         self.offset < DVec3::from(self.normal).dot(point.into())
     }
 
+    /// `normal` · p − `offset`: positive where a point is cut away.
+    pub(crate) fn height(&self, point: [f64; 3]) -> f64 {
+        DVec3::from(self.normal).dot(point.into()) - self.offset
+    }
+
     pub(crate) fn validate(&self) -> Result<(), ViewerError> {
         let length = DVec3::from(self.normal).length();
         let refused =

@@ -6,8 +6,7 @@
 pub enum ViewerError {
     /// No graphics driver offers what the renderer needs.
     #[error(
-        "no usable graphics adapter ({found}); the renderer needs Vulkan, Metal, Direct3D 12 or OpenGL ES 3.1 with storage \
-         buffers. Without a graphics card, a software driver does: on Debian or Ubuntu \
+        "no usable graphics adapter ({found}); the renderer needs Vulkan, Metal, Direct3D 12 or OpenGL ES 3.0. Without a graphics card, a software driver does: on Debian or Ubuntu \
          `apt-get install libvulkan1 mesa-vulkan-drivers`"
     )]
     NoAdapter {

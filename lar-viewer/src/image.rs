@@ -61,6 +61,20 @@ impl Image {
         inside.then(|| std::array::from_fn(|k| self.pixels[at + k]))
     }
 
+    /// Puts another picture over this one, its upper left corner at column `x` of row `y`; what reaches beyond is cut.
+    ///
+    pub fn overlay(&mut self, front: &Self, x: u32, y: u32) {
+        for row in 0..front.height.min(self.height.saturating_sub(y)) {
+            for column in 0..front.width.min(self.width.saturating_sub(x)) {
+                let at = 4 * ((y + row) as usize * self.width as usize + (x + column) as usize);
+                let from = 4 * (row as usize * front.width as usize + column as usize);
+                let back: [u8; 4] = std::array::from_fn(|k| self.pixels[at + k]);
+                let front: [u8; 4] = std::array::from_fn(|k| front.pixels[from + k]);
+                self.pixels[at..at + 4].copy_from_slice(&over(front, back));
+            }
+        }
+    }
+
     /// The picture as a PNG file's bytes.
     ///
     /// # Errors
@@ -85,6 +99,19 @@ impl Image {
         let bytes = self.to_png()?;
         Ok(lar_core::atomic_write(path, |file| file.write_all(&bytes))?)
     }
+}
+
+/// A colour over another; colours are not multiplied by their opacity.
+fn over(front: [u8; 4], back: [u8; 4]) -> [u8; 4] {
+    let [front_alpha, back_alpha] = [u32::from(front[3]), u32::from(back[3])];
+    // In units of 1/255².
+    let (of_front, of_back) = (255 * front_alpha, (255 - front_alpha) * back_alpha);
+    let whole = (of_front + of_back).max(1);
+    let mixed = |k: usize| {
+        let sum = of_front * u32::from(front[k]) + of_back * u32::from(back[k]);
+        ((sum + whole / 2) / whole) as u8
+    };
+    [mixed(0), mixed(1), mixed(2), ((whole + 127) / 255).min(255) as u8]
 }
 
 #[cfg(test)]
@@ -117,6 +144,18 @@ mod tests {
         let image =
             Image::from_premultiplied(4, 1, vec![50, 0, 100, 100, 0, 0, 0, 0, 9, 9, 9, 255, 9, 0, 0, 4]);
         assert_eq!(image.pixels(), [128, 0, 255, 100, 0, 0, 0, 0, 9, 9, 9, 255, 255, 0, 0, 4]);
+    }
+
+    #[test]
+    fn pictures_lie_over_each_other() {
+        assert_eq!(over([9, 8, 7, 255], [1, 2, 3, 255]), [9, 8, 7, 255]);
+        assert_eq!(over([9, 8, 7, 0], [1, 2, 3, 255]), [1, 2, 3, 255]);
+        assert_eq!(over([200, 0, 100, 51], [0, 100, 100, 255]), [40, 80, 100, 255]);
+        assert_eq!(over([200, 0, 100, 51], [7, 7, 7, 0]), [200, 0, 100, 51]);
+        let mut back = checker();
+        back.overlay(&Image::new(2, 2, [1, 2, 3, 255].repeat(4)), 2, 1);
+        assert_eq!(back.pixel(2, 1), Some([1, 2, 3, 255]));
+        assert_eq!([back.pixel(1, 1), back.pixel(2, 0)], [checker().pixel(1, 1), checker().pixel(2, 0)]);
     }
 
     #[test]

@@ -21,6 +21,9 @@ mod camera;
 mod cell_data;
 mod cells;
 mod clip;
+mod color_bar;
+mod color_map;
+mod drawing;
 mod error;
 mod gpu;
 mod image;
@@ -28,6 +31,7 @@ mod offscreen;
 mod orientation;
 mod palette;
 mod pick;
+mod primitives;
 mod scene;
 pub mod session;
 mod text;
@@ -39,8 +43,11 @@ pub use animation::Animation;
 pub use bounds::Bounds;
 pub use camera::{Camera, Projection};
 pub use cell_data::{CellData, FaceParent, Measures, Provenance};
-pub use cells::{CellShape, CellStyle, push_axes, push_cells};
+pub use cells::{CellShape, CellStyle, push_axes, push_cells, push_plane_axes};
 pub use clip::Clip;
+pub use color_bar::ColorBar;
+pub use color_map::ColorMap;
+pub use drawing::{InkLine, LineDrawing};
 pub use error::ViewerError;
 pub use image::Image;
 pub use offscreen::{OffscreenRenderer, Prepared};
@@ -49,6 +56,7 @@ pub use palette::{Coloring, INK, PALETTE, Rgb, SLATE, WHITE, palette_color};
 pub use pick::Hit;
 /// Encoding of pictures; its error is inside [`ViewerError`].
 pub use png;
+pub use primitives::{cuboid_shape, push_arrow, push_exploded_groups, surface_shape};
 pub use scene::{Appearance, CellRef, Drawable, Explosion, Group, GroupId, LEVELS, Scene};
 pub use text::{
     HorizontalAlign, Label, NUMBER_COLORS, TextStyle, VerticalAlign, push_numbers, text_model, text_segments,

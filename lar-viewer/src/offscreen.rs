@@ -37,6 +37,16 @@ impl OffscreenRenderer {
         Ok(Self { renderer: Renderer::new(Context::off_screen()?)?, buffer_bytes: u64::MAX })
     }
 
+    /// A renderer that uses nothing which WebGL 2 lacks, as it draws in a browser and on old adapters: transparent layers
+    /// are not sorted but blended by weight, so that two or more of them come out approximately. Everything opaque is the
+    /// same.
+    ///
+    /// # Errors
+    /// As `new`.
+    pub fn portable() -> Result<Self, ViewerError> {
+        Ok(Self { renderer: Renderer::new(Context::portable()?)?, buffer_bytes: u64::MAX })
+    }
+
     /// With this many bytes at most for the layers of transparent pictures, 256 MiB when not said. Pictures that need
     /// more are drawn in bands, one after the other, and come out the same.
     #[must_use]

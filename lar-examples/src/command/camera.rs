@@ -21,9 +21,9 @@ pub(crate) struct CameraArguments {
     /// Vertical opening angle in degrees.
     #[arg(long, value_name = "DEGREES", conflicts_with = "ortho", allow_hyphen_values = true)]
     fov: Option<f64>,
-    /// Parallel projection, showing this height of the world.
-    #[arg(long, value_name = "HEIGHT", allow_hyphen_values = true)]
-    ortho: Option<f64>,
+    /// Parallel projection, showing this height of the world, or fitted when none is given.
+    #[arg(long, value_name = "HEIGHT", num_args = 0..=1)]
+    ortho: Option<Option<f64>>,
 }
 
 /// Three numbers separated by commas.
@@ -62,7 +62,7 @@ impl CameraArguments {
             }
             _ => fit(lens),
         };
-        Ok(self.ortho.map_or(Ok(placed), |height| placed.orthographic(height))?)
+        Ok(self.ortho.flatten().map_or(Ok(placed), |height| placed.orthographic(height))?)
     }
 
     /// Whether an eye is given.

@@ -6,14 +6,18 @@
 //!           [--merge-coplanar] [--threads N]
 //! lar boolean EXPR INPUT... -o OUT [--json PATH|-] [--fill RULE] [--keep-fragments] [--as-given | --tolerance LENGTH]
 //!           [--merge-coplanar] [--threads N]
-//! lar render INPUT... -o OUT.png [--explode S | SX,SY,SZ] [--alpha A] [--size WxH] [--cells all|solid] [CAMERA]
-//! lar view INPUT... [--explode S | SX,SY,SZ] [--alpha A] [--cells all|solid] [CAMERA]
-//!           where CAMERA is --eye X,Y,Z --target X,Y,Z [--up X,Y,Z] and --fov DEGREES | --ortho HEIGHT, in any part
+//! lar render INPUT... -o OUT.png|.svg [--size WxH] [camera] [look]
+//! lar view INPUT... [camera] [look]
 //! lar info INPUT
 //! lar plane INPUT... [--keep-dangling] [--json PATH|-] [--complex PATH] [-o OUT.svg|.png] [--explode S] [--size WxH]
 //!           [--tolerance T] [--threads N]
 //! lar plane --boolean EXPR INPUT... [--fill RULE] [--json PATH|-] [-o OUT.svg|.png] [--explode S] …
 //! ```
+//!
+//! *camera*: `--view SIDE`, `--azimuth A --elevation E`, or `--eye X,Y,Z --target X,Y,Z --up X,Y,Z`; `--fov F` or
+//! `--ortho[=HEIGHT]`. *look*: `--explode S | SX,SY,SZ` `--by solids|cells|faces|edges`, `--levels S0,S1,S2,S3`, `--about`,
+//! `--alpha`, `--cells all|solid`, `--draw` and `--numbers vertices,edges,faces,cells`, `--color`, `--exterior`, `--clip`,
+//! `--whole-cells`, `--background`; `lar help render` explains them.
 //!
 //! Exit codes: 0 done, 2 bad input or usage, 3 no graphics adapter or display, 130 interrupted. An error is one line on
 //! the error stream, which also shows a bar when it is a terminal and the work takes a while; files are written whole

@@ -2,14 +2,17 @@
 
 use super::camera::CameraArguments;
 use super::input::Inputs;
+#[cfg(feature = "viewer")]
 use super::picture::Look;
 use crate::CommandError;
 
 /// A window on the inputs' arrangement.
 #[derive(Debug, clap::Args)]
+#[cfg_attr(not(feature = "window"), expect(dead_code, reason = "read where there is a window"))]
 pub(crate) struct Window {
     #[command(flatten)]
     inputs: Inputs,
+    #[cfg(feature = "viewer")]
     #[command(flatten)]
     look: Look,
     #[command(flatten)]
@@ -29,10 +32,8 @@ mod with_window {
     use super::{CommandError, Window};
     use crate::bar::Bar;
     use crate::command::input::{named, read};
-    use crate::command::picture::{Explode, Which};
     use crate::exploration::{Explored, cell_data};
-    use lar_arrangement::{Arrangement, Arranger};
-    use lar_viewer::session::{Command, Exterior, Session};
+    use lar_arrangement::Arranger;
     use lar_viewer::{Exhibit, Exploration, Source};
     use std::path::PathBuf;
 
@@ -43,7 +44,7 @@ mod with_window {
             let report = |progress| bar.show(progress);
             let arrangement = Arranger::new().progress(&report).arrange(&operands.surfaces)?;
             drop(bar);
-            let session = self.session(&arrangement)?;
+            let session = self.look.session(cell_data(&arrangement)?);
             // Without an eye, the window fits the camera to the size that it has.
             let camera = self.camera.camera(|lens| lens)?;
             let names = operands.names().into_iter().map(str::to_owned).collect();
@@ -57,20 +58,6 @@ mod with_window {
                 title: "lar".to_owned(),
             })?;
             Ok(())
-        }
-
-        fn session(&self, arrangement: &Arrangement) -> Result<Session, CommandError> {
-            let mut session = Session::new(cell_data(arrangement)?);
-            let Explode(factors) = self.look.explode;
-            session.explode.factors = factors;
-            session.opacity = self.look.alpha;
-            if self.look.cells == Which::All {
-                session.apply(Command::ShowAll);
-                if factors != [1.0; 3] {
-                    session.apply(Command::SetExterior(Exterior::Shell));
-                }
-            }
-            Ok(session)
         }
     }
 

@@ -8,7 +8,26 @@ use std::sync::{Arc, Mutex, PoisonError};
 use wgpu::{Adapter, Backends, DeviceType, DownlevelFlags, Instance, Limits};
 
 /// Storage buffers that the layer shaders use at once.
-const STORAGE_BUFFERS: u32 = 4;
+const STORAGE_BUFFERS: u32 = 3;
+
+/// How transparent layers are blended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Transparency {
+    /// In order of depth, exactly; needs storage buffers that fragment shaders can write.
+    Sorted,
+    /// By a weighted mean, which every adapter can do.
+    Weighted,
+}
+
+impl Transparency {
+    /// The best that an adapter can do.
+    fn of(adapter: &Adapter) -> Self {
+        let writable = DownlevelFlags::FRAGMENT_WRITABLE_STORAGE;
+        let enough = STORAGE_BUFFERS <= adapter.limits().max_storage_buffers_per_shader_stage;
+        let sorted = adapter.get_downlevel_capabilities().flags.contains(writable) && enough;
+        if sorted { Self::Sorted } else { Self::Weighted }
+    }
+}
 
 /// A device with the queue, limits and name of its adapter.
 pub(crate) struct Context {
@@ -16,6 +35,7 @@ pub(crate) struct Context {
     pub(crate) queue: wgpu::Queue,
     pub(crate) limits: Limits,
     pub(crate) adapter_name: String,
+    pub(crate) transparency: Transparency,
     /// The adapter draws on the processor.
     #[cfg(feature = "window")]
     pub(crate) is_software: bool,
@@ -29,11 +49,26 @@ impl Context {
         Self::on(&best_adapter(&instance, None)?)
     }
 
+    /// The same adapter held to what WebGL 2 can do.
+    pub(crate) fn portable() -> Result<Self, ViewerError> {
+        let instance = Instance::new(wgpu::InstanceDescriptor::new_without_display_handle().with_env());
+        let adapter = best_adapter(&instance, None)?;
+        let limits = Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits());
+        Self::with_limits(&adapter, limits, Transparency::Weighted)
+    }
+
     /// The device of an adapter.
     pub(crate) fn on(adapter: &Adapter) -> Result<Self, ViewerError> {
+        Self::with_limits(adapter, adapter.limits(), Transparency::of(adapter))
+    }
+
+    fn with_limits(
+        adapter: &Adapter,
+        limits: Limits,
+        transparency: Transparency,
+    ) -> Result<Self, ViewerError> {
         let info = adapter.get_info();
         let adapter_name = format!("{} ({})", info.name, info.backend);
-        let limits = adapter.limits();
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("lar-viewer"),
             required_limits: limits.clone(),
@@ -52,6 +87,7 @@ impl Context {
             queue,
             limits,
             adapter_name,
+            transparency,
             #[cfg(feature = "window")]
             is_software: info.device_type == DeviceType::Cpu,
             first_error,
@@ -130,25 +166,30 @@ impl Context {
     }
 }
 
-/// The best adapter that has what the renderer needs and, given a surface, can draw on it.
+/// The best adapter that, given a surface, can draw on it: one that sorts layers before any other.
 pub(crate) fn best_adapter(
     instance: &Instance,
     surface: Option<&wgpu::Surface<'_>>,
 ) -> Result<Adapter, ViewerError> {
     let allowed = Backends::from_env().unwrap_or(Backends::all());
     let mut passed_over = Vec::new();
+    let mut second_best = None;
     for backends in [Backends::all() - Backends::GL, Backends::GL] {
         let mut adapters = pollster::block_on(instance.enumerate_adapters(backends & allowed));
         adapters.sort_by_cached_key(|a| (rank(a.get_info().device_type), a.get_info().name));
         for adapter in adapters {
             match lacking(&adapter, surface) {
-                None => return Ok(adapter),
+                None if Transparency::of(&adapter) == Transparency::Sorted => return Ok(adapter),
+                None => second_best = second_best.or(Some(adapter)),
                 Some(reason) => {
                     let info = adapter.get_info();
                     passed_over.push(format!("{} ({}) {reason}", info.name, info.backend));
                 }
             }
         }
+    }
+    if let Some(adapter) = second_best {
+        return Ok(adapter);
     }
     let found = if passed_over.is_empty() { "none found".to_owned() } else { passed_over.join("; ") };
     Err(ViewerError::NoAdapter { found })
@@ -165,11 +206,10 @@ fn rank(device_type: DeviceType) -> u8 {
 }
 
 fn lacking(adapter: &Adapter, surface: Option<&wgpu::Surface<'_>>) -> Option<&'static str> {
-    let needed = DownlevelFlags::FRAGMENT_WRITABLE_STORAGE | DownlevelFlags::VERTEX_STORAGE;
-    if !adapter.get_downlevel_capabilities().flags.contains(needed)
-        || adapter.limits().max_storage_buffers_per_shader_stage < STORAGE_BUFFERS
+    if adapter.limits().max_color_attachments < 2
+        || adapter.limits().max_texture_dimension_2d < super::table::WIDTH
     {
-        Some("has too few storage buffers")
+        Some("has too small textures")
     } else if surface.is_some_and(|s| !adapter.is_surface_supported(s)) {
         Some("cannot draw on this window")
     } else {

@@ -1,9 +1,10 @@
 //! The fixed part of the renderer: bind group layouts and pipelines, made once per device.
 //!
 //! Each kind of geometry has three pipelines: *opaque*, with a depth test, *layer*, which stores fragments in the lists of
-//! the A-buffer, and *id*, which tells what is seen where. Two more steps work on the whole screen.
+//! the A-buffer or sums them, and *id*, which tells what is seen where. Two more steps work on the whole screen.
 
 use super::batch::{Dot, KINDS, Line, Stroke, Vertex};
+use super::context::Transparency;
 use super::frame::Frame;
 use super::scene::Way;
 use super::shaders::{self, Sources};
@@ -18,6 +19,8 @@ pub(crate) const COLOR: TextureFormat = TextureFormat::Rgba8Unorm;
 pub(crate) const OPAQUE_DEPTH: TextureFormat = TextureFormat::R32Uint;
 /// What is seen: part plus one, and the index of the element in its buffer.
 pub(crate) const ID: TextureFormat = TextureFormat::Rg32Uint;
+/// Sums and weights of layers.
+pub(crate) const SUM: TextureFormat = TextureFormat::Rgba16Float;
 /// Depth buffer of the opaque pass.
 pub(crate) const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 
@@ -64,17 +67,22 @@ pub(crate) struct Pipelines {
 }
 
 impl Pipelines {
-    pub(crate) fn new(device: &Device) -> Self {
+    pub(crate) fn new(device: &Device, transparency: Transparency) -> Self {
         let frame_layout = frame_layout(device);
-        let layers_layout = layers_layout(device);
+        let (layers_layout, resolve) = match transparency {
+            Transparency::Sorted => (layers_layout(device), (shaders::RESOLVE, "resolve")),
+            Transparency::Weighted => (sums_layout(device), (shaders::COMPOSE, "compose")),
+        };
         let samples_layout = bind_group_layout(device, "samples", &[texture_entry(0, SAMPLE_COLOR)]);
         let opaque = pipeline_layout(device, &[&frame_layout]);
         let layer = pipeline_layout(device, &[&frame_layout, &layers_layout]);
         let reduce = pipeline_layout(device, &[&frame_layout, &samples_layout]);
-        let maker = Maker { device, opaque: &opaque, layer: &layer };
+        // Summed layers read nothing but the frame.
+        let kinds = if transparency == Transparency::Sorted { &layer } else { &opaque };
+        let maker = Maker { device, opaque: &opaque, layer: kinds, transparency };
         Self {
             kinds: [maker.mesh(), maker.lines(), maker.points(), maker.strokes()],
-            resolve: whole_screen(device, shaders::RESOLVE, "resolve", &layer, Some(OVER)),
+            resolve: whole_screen(device, resolve.0, resolve.1, &layer, Some(OVER)),
             reduce: whole_screen(device, shaders::REDUCE, "reduce", &reduce, None),
             frame_layout,
             layers_layout,
@@ -85,6 +93,21 @@ impl Pipelines {
 
 /// Front over back, with the front's colour multiplied by its coverage already.
 const OVER: wgpu::BlendState = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
+
+/// Colours add up; what a layer lets through multiplies what those before it did. The same for both targets, as WebGL 2
+/// asks for.
+const SUMMED: wgpu::BlendState = wgpu::BlendState {
+    color: wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor: wgpu::BlendFactor::One,
+        operation: wgpu::BlendOperation::Add,
+    },
+    alpha: wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::Zero,
+        dst_factor: wgpu::BlendFactor::OneMinusSrcAlpha,
+        operation: wgpu::BlendOperation::Add,
+    },
+};
 
 fn frame_layout(device: &Device) -> BindGroupLayout {
     let frame = wgpu::BindGroupLayoutEntry {
@@ -110,6 +133,10 @@ fn layers_layout(device: &Device) -> BindGroupLayout {
         "layers",
         &[writable(0), writable(1), writable(2), texture_entry(3, wgpu::TextureSampleType::Uint)],
     )
+}
+
+fn sums_layout(device: &Device) -> BindGroupLayout {
+    bind_group_layout(device, "sums", &[texture_entry(0, SAMPLE_COLOR), texture_entry(1, SAMPLE_COLOR)])
 }
 
 fn writable(binding: u32) -> wgpu::BindGroupLayoutEntry {
@@ -196,6 +223,7 @@ struct Maker<'a> {
     device: &'a Device,
     opaque: &'a PipelineLayout,
     layer: &'a PipelineLayout,
+    transparency: Transparency,
 }
 
 impl Maker<'_> {
@@ -261,13 +289,29 @@ impl Maker<'_> {
             bias: wgpu::DepthBiasState::default(),
         };
         let opaque = [target(COLOR, wgpu::ColorWrites::ALL), target(OPAQUE_DEPTH, wgpu::ColorWrites::ALL)];
-        let layer = [target(COLOR, wgpu::ColorWrites::empty())];
+        let sum = || {
+            let state = wgpu::ColorTargetState {
+                format: SUM,
+                blend: Some(SUMMED),
+                write_mask: wgpu::ColorWrites::ALL,
+            };
+            Some(state)
+        };
+        let (source, layer, layer_depth) = match self.transparency {
+            Transparency::Sorted => {
+                (kind.sources.layer, vec![target(COLOR, wgpu::ColorWrites::empty())], None)
+            }
+            Transparency::Weighted => {
+                let tested = wgpu::DepthStencilState { depth_write_enabled: Some(false), ..depth.clone() };
+                (kind.sources.weighted, vec![sum(), sum()], Some(tested))
+            }
+        };
         let id = [target(ID, wgpu::ColorWrites::ALL)];
         let solid = shader(self.device, kind.sources.solid);
-        let layered = shader(self.device, kind.sources.layer);
+        let layered = shader(self.device, source);
         Ways {
             opaque: self.pipeline(kind, &solid, "opaque", self.opaque, &opaque, Some(depth.clone())),
-            layer: self.pipeline(kind, &layered, "layer", self.layer, &layer, None),
+            layer: self.pipeline(kind, &layered, "layer", self.layer, &layer, layer_depth),
             id: self.pipeline(kind, &solid, "id", self.opaque, &id, Some(depth)),
         }
     }

@@ -7,6 +7,9 @@
 //! 3. *resolve*: the lists sorted by depth and blended over the opaque colour;
 //! 4. *reduce*: samples to pixels.
 //!
+//! Where an adapter has no storage buffers that fragments can write (WebGL 2), the second pass sums layers by weight and
+//! the third takes the mean.
+//!
 //! Supersampling, not multisampling: with lists per sample, transparent outlines, lines and points become as smooth
 //! as opaque ones, the depth texture can be read on every backend, and 1 to 8 samples a side can be had where
 //! multisampling offers only four in all. On the software drivers that servers draw with, four multisamples cost no
@@ -20,7 +23,7 @@ use super::frame::{Frame, Raster};
 use super::layers::{Band, DEFAULT_MEMORY, Layers};
 use super::pipelines::Pipelines;
 use super::scene::{Run, SceneBuffers, Way};
-use super::targets::Targets;
+use super::targets::{Sums, Targets};
 use crate::{Image, View, ViewerError};
 use wgpu::{BufferUsages, CommandEncoder, LoadOp, Operations, RenderPass, StoreOp};
 
@@ -44,7 +47,7 @@ pub(crate) struct Renderer {
 
 impl Renderer {
     pub(crate) fn new(context: Context) -> Result<Self, ViewerError> {
-        let pipelines = Pipelines::new(&context.device);
+        let pipelines = Pipelines::new(&context.device, context.transparency);
         context.check()?;
         Ok(Self { context, pipelines, targets: None, layers: None, layer_memory: DEFAULT_MEMORY })
     }
@@ -69,7 +72,11 @@ impl Renderer {
         let frame = Frame::new(view, &raster, &scene.placement, scene.extents.bounds(&view.explode));
         let [opaque, layer] = [Way::Opaque, Way::Layer].map(|way| scene.runs(way, view.opacity));
         let draw = Draw { renderer: self, scene, view, frame, targets: &targets, opaque, layer };
-        let layers = if draw.layer.is_empty() { draw.without_layers()? } else { draw.with_layers()? };
+        let layers = match (&draw.layer[..], &targets.sums) {
+            ([], _) => draw.without_layers()?,
+            (_, Some(sums)) => draw.with_sums(sums)?,
+            (_, None) => draw.with_layers()?,
+        };
         self.layers = layers.or(self.layers.take());
         Ok(self.targets.insert(targets))
     }
@@ -150,6 +157,41 @@ impl Draw<'_> {
         Ok(None)
     }
 
+    /// Draws with the layers summed.
+    fn with_sums(&self, sums: &Sums) -> Result<Option<Layers>, ViewerError> {
+        let group = self.frame_group(&[Band { row: 0, rows: 0 }], 0)?;
+        let mut encoder = self.encoder();
+        self.opaque_pass(&mut encoder, &group);
+        self.sum_pass(&mut encoder, &group, sums);
+        {
+            let whole = Band { row: 0, rows: self.targets.raster.size()[1] };
+            let mut pass = self.band_pass(&mut encoder, "compose", whole);
+            pass.set_bind_group(0, &group, &[0]);
+            pass.set_bind_group(1, &sums.group, &[]);
+            pass.set_pipeline(&self.renderer.pipelines.resolve);
+            pass.draw(0..3, 0..1);
+        }
+        self.reduce_pass(&mut encoder, &group);
+        self.submit(encoder)?;
+        Ok(None)
+    }
+
+    fn sum_pass(&self, encoder: &mut CommandEncoder, group: &wgpu::BindGroup, sums: &Sums) {
+        let nothing = LoadOp::Clear(wgpu::Color { r: 0.0, g: 0.0, b: 0.0, a: 1.0 });
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("sums"),
+            color_attachments: &[attachment(&sums.views[0], nothing), attachment(&sums.views[1], nothing)],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &self.targets.depth,
+                depth_ops: Some(Operations { load: LoadOp::Load, store: StoreOp::Discard }),
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        });
+        pass.set_bind_group(0, group, &[0]);
+        draw_runs(&mut pass, &self.renderer.pipelines, self.scene, Way::Layer, &self.layer);
+    }
+
     /// Draws until no layer is lost; returns the buffers that it took when they are new.
     fn with_layers(&self) -> Result<Option<Layers>, ViewerError> {
         let Renderer { context, pipelines, layers, layer_memory, .. } = self.renderer;
@@ -206,7 +248,8 @@ impl Draw<'_> {
     fn opaque_pass(&self, encoder: &mut CommandEncoder, group: &wgpu::BindGroup) {
         let a = f64::from(self.view.background_opacity);
         let [r, g, b] = self.view.background.map(|c| a * f64::from(c));
-        let depth_ops = Operations { load: LoadOp::Clear(1.0), store: StoreOp::Discard };
+        let store = if self.targets.sums.is_some() { StoreOp::Store } else { StoreOp::Discard };
+        let depth_ops = Operations { load: LoadOp::Clear(1.0), store };
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("opaque"),
             color_attachments: &[

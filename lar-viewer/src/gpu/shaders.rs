@@ -1,46 +1,56 @@
 //! The shader modules, put together from the files in `src/shaders`.
 //!
-//! Each kind of geometry has a module for what is drawn with a depth test and one that stores layers.
+//! Each kind of geometry has a module for what is drawn with a depth test, one that stores layers in lists, and one that
+//! sums them.
 
 /// The pieces of a module, one after the other.
 macro_rules! module {
     ($($piece:literal),*) => { concat!($(include_str!(concat!("../shaders/", $piece, ".wgsl"))),*) };
 }
 
-/// The two modules of one kind of geometry.
+/// The modules of one kind of geometry.
 pub(crate) struct Sources {
     /// Opaque pass and id pass.
     pub(crate) solid: &'static str,
     /// Layers in lists.
     pub(crate) layer: &'static str,
+    /// Layers as sums.
+    pub(crate) weighted: &'static str,
 }
 
 /// Triangles.
 pub(crate) const MESH: Sources = Sources {
     solid: module!("common", "mesh"),
     layer: module!("common", "mesh", "layers", "store", "mesh_layer"),
+    weighted: module!("common", "mesh", "weighted", "mesh_layer"),
 };
 
 /// Segments.
 pub(crate) const LINES: Sources = Sources {
     solid: module!("common", "lines"),
     layer: module!("common", "lines", "layers", "store", "lines_layer"),
+    weighted: module!("common", "lines", "weighted", "lines_layer"),
 };
 
 /// Dots.
 pub(crate) const POINTS: Sources = Sources {
     solid: module!("common", "points"),
     layer: module!("common", "points", "layers", "store", "points_layer"),
+    weighted: module!("common", "points", "weighted", "points_layer"),
 };
 
 /// Strokes of labels.
 pub(crate) const LABELS: Sources = Sources {
     solid: module!("common", "labels"),
     layer: module!("common", "labels", "layers", "store", "labels_layer"),
+    weighted: module!("common", "labels", "weighted", "labels_layer"),
 };
 
 /// Blending of the stored layers.
 pub(crate) const RESOLVE: &str = module!("common", "layers", "resolve");
+
+/// Blending of the sums of layers.
+pub(crate) const COMPOSE: &str = module!("common", "compose");
 
 /// Averaging of samples.
 pub(crate) const REDUCE: &str = module!("common", "reduce");
@@ -70,8 +80,12 @@ mod tests {
             let vertex = ["opaque", "layer", "id"].map(|way| format!("{name}_{way}_vertex"));
             let solid = [format!("{name}_opaque"), format!("{name}_id")];
             check_entry_points(sources.solid, &[&vertex[..], &solid].concat());
-            check_entry_points(sources.layer, &[&vertex[..], &solid, &[format!("{name}_layer")]].concat());
+            let layer = [&vertex[..], &solid, &[format!("{name}_layer")]].concat();
+            check_entry_points(sources.layer, &layer);
+            check_entry_points(sources.weighted, &layer);
+            assert!(!sources.weighted.contains("var<storage"), "{name} needs storage buffers");
         }
+        check_entry_points(COMPOSE, &["whole_screen", "compose"]);
         check_entry_points(RESOLVE, &["whole_screen", "resolve"]);
         check_entry_points(REDUCE, &["whole_screen", "reduce"]);
     }

@@ -1,8 +1,8 @@
 //! The textures that a frame is drawn into.
 
-use super::context::Context;
+use super::context::{Context, Transparency};
 use super::frame::Raster;
-use super::pipelines::{COLOR, DEPTH, OPAQUE_DEPTH, Pipelines};
+use super::pipelines::{COLOR, DEPTH, OPAQUE_DEPTH, Pipelines, SUM};
 use wgpu::{Texture, TextureUsages, TextureView};
 
 /// Textures of one size: three of samples and the finished picture.
@@ -14,6 +14,31 @@ pub(crate) struct Targets {
     pub(crate) picture: Texture,
     pub(crate) picture_view: TextureView,
     pub(crate) samples: wgpu::BindGroup,
+    /// Where layers are summed rather than sorted.
+    pub(crate) sums: Option<Sums>,
+}
+
+/// Textures for sums and weights of layers, and the group that reads them.
+pub(crate) struct Sums {
+    pub(crate) views: [TextureView; 2],
+    pub(crate) group: wgpu::BindGroup,
+}
+
+impl Sums {
+    fn new(context: &Context, pipelines: &Pipelines, size: [u32; 2]) -> Self {
+        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
+        let views = [(); 2].map(|()| view(&texture(context, size, SUM, usage)));
+        let entry = |binding: usize| wgpu::BindGroupEntry {
+            binding: binding as u32,
+            resource: wgpu::BindingResource::TextureView(&views[binding]),
+        };
+        let group = context.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("sums"),
+            layout: &pipelines.layers_layout,
+            entries: &[entry(0), entry(1)],
+        });
+        Self { views, group }
+    }
 }
 
 impl Targets {
@@ -35,7 +60,9 @@ impl Targets {
             }],
         });
         let picture_view = view(&picture);
-        Self { raster, color, opaque_depth, depth, picture, picture_view, samples }
+        let weighted = context.transparency == Transparency::Weighted;
+        let sums = weighted.then(|| Sums::new(context, pipelines, size));
+        Self { raster, color, opaque_depth, depth, picture, picture_view, samples, sums }
     }
 }
 

@@ -1,6 +1,6 @@
 //! What the colours of cells mean.
 
-use crate::{CellData, CellRef, Coloring, Rgb};
+use crate::{CellData, CellRef, ColorMap, Coloring, Rgb};
 
 /// What the colours of cells mean.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,10 +20,6 @@ pub enum ColorBy {
 
 /// Colour where a cell has none of the meaning's values, and of all cells when plain.
 const PLAIN: Rgb = [0.80, 0.82, 0.85];
-
-/// A sequential colour scale, dark blue to yellow, even in lightness: corners between which is interpolated.
-const SCALE: [Rgb; 5] =
-    [[0.15, 0.14, 0.40], [0.18, 0.38, 0.60], [0.16, 0.60, 0.58], [0.48, 0.80, 0.40], [0.98, 0.90, 0.26]];
 
 impl ColorBy {
     /// All meanings.
@@ -96,11 +92,7 @@ pub fn size_range(data: &CellData, dim: u8) -> Option<[f64; 2]> {
 /// ```
 #[must_use]
 pub fn scale_color(value: f64) -> Rgb {
-    let value = if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) };
-    let at = value * (SCALE.len() - 1) as f64;
-    let below = (at as usize).min(SCALE.len() - 2);
-    let part = (at - below as f64) as f32;
-    std::array::from_fn(|k| SCALE[below][k] + part * (SCALE[below + 1][k] - SCALE[below][k]))
+    ColorMap::Sequential.color(value)
 }
 
 #[cfg(test)]
@@ -129,16 +121,5 @@ mod tests {
         assert_eq!(of(ColorBy::Size)[1..], [scale_color(0.5); 3]);
         assert_eq!(of(ColorBy::Plain), [PLAIN; 4]);
         assert_eq!(size_range(&data, 3), Some([1.0, 1.0]));
-    }
-
-    #[test]
-    fn the_scale_rises_in_lightness() {
-        let lightness = |v: f64| scale_color(v).iter().zip([0.3, 0.6, 0.1]).map(|(c, w)| c * w).sum::<f32>();
-        for i in 0..20 {
-            assert!(lightness(f64::from(i) / 20.0) < lightness(f64::from(i + 1) / 20.0));
-        }
-        assert_eq!(scale_color(-1.0), SCALE[0]);
-        assert_eq!(scale_color(2.0), SCALE[4]);
-        assert_eq!(scale_color(f64::NAN), SCALE[0]);
     }
 }

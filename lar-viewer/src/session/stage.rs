@@ -26,6 +26,9 @@ const SIGN_COLORS: [Rgb; 2] = [[0.99, 0.55, 0.10], [0.15, 0.55, 0.98]];
 const SELECTED: Rgb = [1.0, 0.85, 0.15];
 /// Colour of the chain of a replay, of its boundary, and of the corolla.
 const REPLAY_COLORS: [Rgb; 3] = [[0.93, 0.33, 0.28], [0.98, 0.85, 0.20], [0.26, 0.52, 0.90]];
+/// Edges and vertices on a dark background, and the sum of channels below which it is dark.
+const PALE: Rgb = [0.78, 0.80, 0.84];
+const DARK: f32 = 0.6;
 /// Colour of points and lines that are measured.
 const MEASURED: Rgb = [0.95, 0.25, 0.60];
 
@@ -222,6 +225,7 @@ impl Stage {
             let (color, opacity) = match kind {
                 Kind::Fill if data.is_exterior(place.unit) => (WHITE, exterior_opacity(session)),
                 Kind::Fill => (colors[usize::from(colored.dim)][colored.index as usize], session.opacity),
+                Kind::Edges | Kind::Dots if is_dark(session.background) => (PALE, 1.0),
                 Kind::Edges | Kind::Dots => (own.color, 1.0),
             };
             let opacity = opacity * ghost(session, place.unit, kind);
@@ -334,6 +338,10 @@ impl Stage {
         let whole = self.groups.get(&Place { unit, face: None, edge: None }).copied();
         if found.is_empty() { vec![whole] } else { found }
     }
+}
+
+fn is_dark(color: Rgb) -> bool {
+    color.iter().sum::<f32>() < DARK
 }
 
 fn exterior_opacity(session: &Session) -> f32 {
