@@ -5,7 +5,7 @@ use lar_core::{Cells, Model, Points, Surface};
 use lar_triangle::{TriangulateError, convex_hull};
 use lar_viewer::{CellRef, CellShape, CellStyle, Drawable, Scene, push_cells, surface_shape};
 
-/// A polygon with holes as a face: the outer loop first, each loop a list of corners.
+/// A polygon with holes as a face: the outer loop first, each loop a list of corners in either order.
 ///
 /// ```
 /// let square = |a: f64, b: f64| vec![[a, a, 0.], [b, a, 0.], [b, b, 0.], [a, b, 0.]];
@@ -19,14 +19,30 @@ use lar_viewer::{CellRef, CellShape, CellStyle, Drawable, Scene, push_cells, sur
 #[doc(alias("GLPolygon", "GLPolygons"))]
 pub fn polygon_shape(index: u32, loops: &[Vec<[f64; 3]>]) -> Result<CellShape, TriangulateError> {
     let mut surface = Surface::new(format!("polygon {index}"), Points::from_xyz(&loops.concat()));
-    let mut first = 0;
-    let numbered = loops.iter().map(|corners| {
+    let outward = loops.first().map_or([0.0; 3], |outer| vector_area(outer));
+    let (mut numbered, mut first) = (Vec::new(), 0);
+    for corners in loops {
         let next = first + corners.len() as u32;
-        (std::mem::replace(&mut first, next)..next).collect()
-    });
-    let numbered: Vec<Vec<u32>> = numbered.collect();
+        let mut cycle: Vec<u32> = (first..next).collect();
+        let with_outer = (0..3).map(|k| vector_area(corners)[k] * outward[k]).sum::<f64>();
+        // Holes run the other way round.
+        if 0 < first && 0.0 < with_outer {
+            cycle.reverse();
+        }
+        numbered.push(cycle);
+        first = next;
+    }
     surface.push_face(numbered.iter().map(Vec::as_slice), 1);
     Ok(surface_shape(&surface, mesh::of_surface(&surface)?, CellRef::new(2, index)))
+}
+
+/// The area of a loop along its normal (Newell's sum).
+fn vector_area(corners: &[[f64; 3]]) -> [f64; 3] {
+    let next = corners.iter().skip(1).chain(corners.first());
+    corners.iter().zip(next).fold([0.0; 3], |sum, (a, b)| {
+        let cross = |i: usize, j: usize| 0.5 * (a[i] * b[j] - a[j] * b[i]);
+        [sum[0] + cross(1, 2), sum[1] + cross(2, 0), sum[2] + cross(0, 1)]
+    })
 }
 
 /// A polyhedron, or any polygonal surface, as a cell.

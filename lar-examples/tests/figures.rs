@@ -39,6 +39,24 @@ fn check_picture(name: &str, image: &Image) {
     std::fs::remove_file(&actual).unwrap();
 }
 
+/// The same for a PNG file.
+#[track_caller]
+fn check_file(name: &str, actual: &Path) {
+    let path = committed(name);
+    if std::env::var_os("LAR_UPDATE_PICTURES").is_some() {
+        std::fs::copy(actual, &path).unwrap();
+    }
+    let (size, pixels) = read_png(actual);
+    let (expected_size, expected) = read_png(&path);
+    assert_eq!(size, expected_size, "size of {name}");
+    let (differing, allowed) = (differing(&pixels, &expected), expected.len() / 4 / 1000);
+    assert!(
+        differing <= allowed,
+        "{name}: {differing} pixels differ, {allowed} may; see {}",
+        actual.display()
+    );
+}
+
 #[test]
 fn panels_of_the_three_cubes() {
     let Some(mut renderer) = renderer() else { return };

@@ -38,6 +38,11 @@ const REQUIRED: &[(&str, &str)] = &[
         "planar_arrangement spatial_arrangement minimal_2cycles minimal_3cycles spaceindex bool2d bool3d boolops",
     ),
     ("Triangle", "pols2tria triangulate2D constrained_triangulation"),
+    (
+        "Viewer",
+        "VIEW GLFrame GLFrame2 GLAxis GLCuboid GLHull GLHull2d GLHulls GLPolygon GLPolygons GLLar2gl GLLines GLPoints \
+         GLPolyhedron GLPolyhedrons GLPol GLGrid GLExplode GLText numbering COLORS",
+    ),
 ];
 
 /// A public item: where it is, and what other names it has.
@@ -130,9 +135,16 @@ fn every_julia_name_leads_somewhere() {
             }
         }
     }
+    let primitives = root.join("lar-examples/src/primitives.rs");
+    let text = std::fs::read_to_string(&primitives).expect("sources are UTF-8");
+    for item in items("lar_examples::primitives", &text) {
+        for name in item.aliases {
+            by_name.entry(name).or_default().push(item.path.clone());
+        }
+    }
     let mut table = String::from(
         "# Julia names and their Rust counterparts\n\nThe functions of the first implementation (packages \
-         LinearAlgebraicRepresentation and Triangle) and where they are here. The names are also found by the search \
+         LinearAlgebraicRepresentation, Triangle and ViewerGL) and where they are here. The names are also found by the search \
          field of the API documentation. This file is made by `lar-examples/tests/names.rs`.\n",
     );
     let mut missing = Vec::new();

@@ -182,7 +182,7 @@ fn each_primitive_has_its_picture() {
         assert!(300 < inked, "{name}: {inked} pixels are drawn");
         sheet.overlay(&image, width * (i % columns), height * (i / columns));
     }
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/pictures/primitives.png");
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../docs/gallery/primitives.png");
     if std::env::var_os("LAR_UPDATE_PICTURES").is_some() {
         sheet.write_png(&path).unwrap();
     }

@@ -136,29 +136,13 @@ fn round(value: &mut Value) {
     }
 }
 
-/// The same for a PNG file.
-#[track_caller]
-fn check_file(name: &str, actual: &Path) {
-    let path = committed(name);
-    if std::env::var_os("LAR_UPDATE_PICTURES").is_some() {
-        std::fs::copy(actual, &path).unwrap();
-    }
-    let (size, pixels) = read_png(actual);
-    let (expected_size, expected) = read_png(&path);
-    assert_eq!(size, expected_size, "size of {name}");
-    let (differing, allowed) = (differing(&pixels, &expected), expected.len() / 4 / 1000);
-    assert!(
-        differing <= allowed,
-        "{name}: {differing} pixels differ, {allowed} may; see {}",
-        actual.display()
-    );
-}
-
+/// Pixels that differ by more than 8 of 255 in a channel.
 pub(crate) fn differing(a: &[u8], b: &[u8]) -> usize {
     let pixels = a.chunks_exact(4).zip(b.chunks_exact(4));
     pixels.filter(|(a, b)| a.iter().zip(*b).any(|(x, y)| 8 < x.abs_diff(*y))).count()
 }
 
+/// Size and pixels of a picture.
 pub(crate) fn read_png(path: &Path) -> ([u32; 2], Vec<u8>) {
     let file = std::fs::File::open(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();

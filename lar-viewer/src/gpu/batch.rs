@@ -9,6 +9,7 @@
 //! Coordinates are rounded to f32 relative to the centre and the radius of the scene. The three vertices of a
 //! triangle are stored in order of position: triangles that two cells share then get bit-identical depths.
 
+use super::cull::Ball;
 use super::frame::Placement;
 use crate::scene::{Drawable, Extents, Shape, point3};
 use crate::{Label, Scene, TextStyle, text};
@@ -81,6 +82,8 @@ pub(crate) const VERTICES: [u32; KINDS] = [3, 4, 4, 12];
 pub(crate) const ELEMENT_BYTES: [usize; KINDS] =
     [3 * size_of::<Vertex>(), size_of::<Line>(), size_of::<Dot>(), size_of::<Stroke>()];
 
+/// Most elements of a part: of a large drawable only the parts in the picture are drawn.
+const PART: usize = 1 << 15;
 /// Units of the ends of strokes in a pixel.
 const STROKE_UNITS: f64 = 16.0;
 /// Width of strokes, in parts of the height of capitals.
@@ -107,6 +110,8 @@ pub(crate) struct Batch {
     pub(crate) extents: Extents,
     /// One for each part.
     pub(crate) spans: Vec<Span>,
+    /// Around the elements of each part.
+    pub(crate) balls: Vec<Ball>,
     /// Elements of each kind that one buffer holds: each array is cut after every so many.
     pub(crate) capacity: [u32; KINDS],
     pub(crate) triangles: Vec<[Vertex; 3]>,
@@ -127,6 +132,7 @@ impl Batch {
             placement: Placement { center: extents.center, unit },
             extents,
             spans: Vec::new(),
+            balls: Vec::new(),
             capacity: ELEMENT_BYTES.map(capacity),
             triangles: Vec::new(),
             lines: Vec::new(),
@@ -137,7 +143,18 @@ impl Batch {
         let is_opaque = |d: &Drawable| 1.0 <= d.appearance.opacity;
         numbered().filter(|(_, d)| is_opaque(d)).for_each(|(i, d)| batch.push(i, d));
         numbered().filter(|(_, d)| !is_opaque(d)).for_each(|(i, d)| batch.push(i, d));
+        batch.balls = batch.spans.iter().map(|span| batch.ball(span)).collect();
         batch
+    }
+
+    fn ball(&self, span: &Span) -> Ball {
+        let range = span.start as usize..(span.start + span.n) as usize;
+        match span.kind {
+            MESH => Ball::around(self.triangles[range].iter().flatten().map(|v| v.position)),
+            LINES => Ball::around(self.lines[range].iter().flat_map(|l| [l.start, l.end])),
+            POINTS => Ball::around(self.dots[range].iter().map(|d| d.center)),
+            _ => Ball::around(self.strokes[range].iter().map(|s| s.anchor)),
+        }
     }
 
     fn push(&mut self, index: usize, drawable: &Drawable) {
@@ -202,7 +219,7 @@ impl Batch {
         let mut done = 0;
         let mut parts = Vec::new();
         while done < n {
-            let here = (n - done).min(capacity - (start + done) % capacity);
+            let here = (n - done).min(capacity - (start + done) % capacity).min(PART);
             parts.push((id(self.spans.len()), done..done + here));
             let [drawable, element, start] = [index, done, start + done].map(id);
             self.spans.push(Span { drawable, element, kind, start, n: id(here) });

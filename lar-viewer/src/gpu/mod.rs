@@ -2,6 +2,7 @@
 
 pub(crate) mod batch;
 pub(crate) mod context;
+pub(crate) mod cull;
 pub(crate) mod frame;
 pub(crate) mod layers;
 pub(crate) mod parts;

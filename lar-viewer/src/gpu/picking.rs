@@ -1,6 +1,7 @@
 //! What is seen near a pixel: the scene drawn once more, only around that pixel, with ids for colours.
 
 use super::batch::{LINES, POINTS, STROKES};
+use super::cull::Frustum;
 use super::frame::{Frame, Raster};
 use super::pipelines::{DEPTH, ID};
 use super::renderer::{Renderer, draw_runs, frame_group};
@@ -94,7 +95,13 @@ impl Renderer {
             let corner = pixel.map(|at| radius as f32 - at as f32);
             pass.set_viewport(corner[0], corner[1], raster.width as f32, raster.height as f32, 0.0, 1.0);
             pass.set_bind_group(0, &group, &[0]);
-            draw_runs(&mut pass, &self.pipelines, scene, Way::Id, &scene.runs(Way::Id, view.opacity));
+            draw_runs(
+                &mut pass,
+                &self.pipelines,
+                scene,
+                Way::Id,
+                &scene.runs(Way::Id, view.opacity, &Frustum::new(&frame)),
+            );
         }
         let row_bytes = (ID_BYTES * side).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let buffer = context.device.create_buffer(&wgpu::BufferDescriptor {

@@ -19,6 +19,7 @@
 
 use super::batch;
 use super::context::Context;
+use super::cull::Frustum;
 use super::frame::{Frame, Raster};
 use super::layers::{Band, DEFAULT_MEMORY, Layers};
 use super::pipelines::Pipelines;
@@ -70,7 +71,8 @@ impl Renderer {
             }
         };
         let frame = Frame::new(view, &raster, &scene.placement, scene.extents.bounds(&view.explode));
-        let [opaque, layer] = [Way::Opaque, Way::Layer].map(|way| scene.runs(way, view.opacity));
+        let frustum = Frustum::new(&frame);
+        let [opaque, layer] = [Way::Opaque, Way::Layer].map(|way| scene.runs(way, view.opacity, &frustum));
         let draw = Draw { renderer: self, scene, view, frame, targets: &targets, opaque, layer };
         let layers = match (&draw.layer[..], &targets.sums) {
             ([], _) => draw.without_layers()?,

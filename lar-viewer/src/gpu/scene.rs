@@ -2,8 +2,9 @@
 
 use super::batch::{self, Batch, KINDS, Span};
 use super::context::Context;
+use super::cull::{Ball, Frustum};
 use super::frame::Placement;
-use super::parts::{Part, group_offsets};
+use super::parts::{GroupOffsets, NO_GROUP, Part, group_offsets};
 use super::table::Table;
 use crate::scene::{Drawable, Extents};
 use crate::{Appearance, Scene, ViewerError};
@@ -40,6 +41,8 @@ pub(crate) struct SceneBuffers {
     pub(crate) chunks: [Vec<Buffer>; KINDS],
     capacity: [u32; KINDS],
     spans: Vec<Span>,
+    balls: Vec<Ball>,
+    offsets: Vec<GroupOffsets>,
     looks: Vec<Part>,
 }
 
@@ -48,9 +51,10 @@ impl SceneBuffers {
         let batch = Batch::new(scene, buffer_bytes.min(context.limits.max_buffer_size));
         let capacity = batch.capacity;
         let looks = looks(&batch.spans, scene.drawables(), |i| scene.drawables()[i].appearance);
+        let offsets = group_offsets(scene, &batch.placement);
         Ok(Self {
             parts: Table::new(context, "drawables", &looks)?,
-            groups: Table::new(context, "groups", &group_offsets(scene, &batch.placement))?,
+            groups: Table::new(context, "groups", &offsets)?,
             chunks: [
                 upload(context, "triangles", &batch.triangles, capacity[batch::MESH])?,
                 upload(context, "segments", &batch.lines, capacity[batch::LINES])?,
@@ -59,6 +63,8 @@ impl SceneBuffers {
             ],
             capacity,
             spans: batch.spans,
+            balls: batch.balls,
+            offsets,
             looks,
             placement: batch.placement,
             extents: batch.extents,
@@ -83,8 +89,8 @@ impl SceneBuffers {
         Ok(())
     }
 
-    /// What a pass draws, when the view multiplies the opacity of meshes by `opacity`.
-    pub(crate) fn runs(&self, way: Way, opacity: f32) -> Vec<Run> {
+    /// What a pass draws of what may be seen, when the view multiplies the opacity of meshes by `opacity`. O(parts).
+    pub(crate) fn runs(&self, way: Way, opacity: f32, frustum: &Frustum) -> Vec<Run> {
         let is_drawn = |span: &Span, part: &Part| {
             let dimming = if span.kind == batch::MESH { opacity } else { 1.0 };
             let is_layer = part.is_layer(dimming);
@@ -94,7 +100,13 @@ impl SceneBuffers {
                 Way::Id => 0.0 < part.color[3] * dimming,
             }
         };
-        let drawn = self.spans.iter().zip(&self.looks).filter(|(s, p)| is_drawn(s, p)).map(|(s, _)| s);
+        let in_picture = |span: &Span, part: &Part, ball: &Ball| {
+            let group = self.offsets.get(part.group as usize).filter(|_| part.group != NO_GROUP);
+            // Labels reach as far from their anchors as their texts are long.
+            span.kind == batch::STROKES || frustum.sees(ball, group)
+        };
+        let parts = self.spans.iter().zip(&self.looks).zip(&self.balls);
+        let drawn = parts.filter(|((s, p), b)| is_drawn(s, p) && in_picture(s, p, b)).map(|((s, _), _)| s);
         runs(drawn, self.capacity)
     }
 
