@@ -20,7 +20,8 @@ mod bar;
 pub mod checks;
 pub mod command;
 mod error;
-#[cfg(feature = "window")]
+#[cfg(feature = "viewer")]
+#[cfg_attr(not(feature = "window"), allow(dead_code, reason = "much of it only windows ask"))]
 mod exploration;
 #[cfg(feature = "viewer")]
 pub mod figures;

@@ -25,7 +25,7 @@ fn has_adapter() -> bool {
 const OPTIONS: [(&str, usize); 21] = [
     ("--view top", 1000),
     ("--azimuth 30 --elevation 10", 1000),
-    ("--eye 5,4,3 --up 0,0,1", 1000),
+    ("--eye 5,4,3 --target 0,0,0.5 --up 0,1,0", 1000),
     ("--eye 5,4,3 --target 0.5,0.5,0", 1000),
     ("--ortho", 200),
     ("--ortho=9", 1000),
@@ -102,7 +102,7 @@ fn what_is_no_camera_or_plane_is_refused() {
     let place = Place::with_cubes();
     for (options, said) in [
         ("--view above", "a view is front, back"),
-        ("--eye 1,2", "three numbers"),
+        ("--eye 1,2 --target 0,0,0", "three numbers"),
         ("--target 0,0,0", "--eye"),
         ("--view top --azimuth 3", "cannot be used with"),
         ("--eye 0,0,1 --target 0,0,0", "parallel to the line of sight"),
