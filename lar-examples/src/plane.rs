@@ -19,5 +19,7 @@ pub mod scenes;
 pub(crate) use boolean::{Boolean, BooleanOptions, arranged};
 pub use color::face_colors;
 pub(crate) use file::PictureFile;
-pub(crate) use input::{Input, Shapes, Source, extension};
+#[cfg(feature = "viewer")]
+pub(crate) use input::extension;
+pub(crate) use input::{Input, Shapes, Source};
 pub use picture::{Color, PaintedPath, Picture, Run, Stroke};

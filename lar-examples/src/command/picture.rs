@@ -29,7 +29,6 @@ pub(crate) fn factor(text: &str) -> Option<f32> {
 /// A picture of the inputs' arrangement: PNG or, as a drawing of its lines without the hidden ones, SVG. Inputs are
 /// surfaces in space or drawings in the plane (.svg, .seg).
 #[derive(Debug, clap::Args)]
-#[cfg_attr(not(feature = "viewer"), expect(dead_code, reason = "read where there is a viewer"))]
 pub(crate) struct Render {
     #[command(flatten)]
     inputs: Inputs,

@@ -8,7 +8,6 @@ use crate::CommandError;
 
 /// A window on the inputs' arrangement.
 #[derive(Debug, clap::Args)]
-#[cfg_attr(not(feature = "window"), expect(dead_code, reason = "read where there is a window"))]
 pub(crate) struct Window {
     #[command(flatten)]
     inputs: Inputs,

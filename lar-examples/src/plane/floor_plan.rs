@@ -7,7 +7,9 @@
 
 use super::boolean::{Boolean, BooleanOptions};
 use super::color::cyclic;
-use super::figures::{Pictures, deliver};
+#[cfg(feature = "viewer")]
+use super::figures::Pictures;
+use super::figures::deliver;
 use super::input::{Regions, Shapes, Source};
 use super::picture::{Color, PaintedPath, Picture, Stroke, filled};
 use crate::size::Size;
@@ -63,6 +65,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>, out: &mut dyn Write, err: &
 }
 
 /// The plan of an apartment, in hundredths of a metre.
+#[cfg(feature = "viewer")]
 pub(crate) fn apartment() -> Result<Pictures, CommandError> {
     let drawing = lar_core::parse_svg(include_str!("apartment.svg"), "apartment.svg", TOLERANCE)?;
     let plan = FloorPlan::new(&Shapes::of_svg("apartment.svg", &drawing))?;

@@ -70,6 +70,7 @@ impl Shapes {
     }
 
     /// One drawing that was read from an SVG document of this name.
+    #[cfg(feature = "viewer")]
     pub(crate) fn of_svg(path: &str, drawing: &lar_core::Drawing) -> Self {
         let mut out = Self::default();
         out.push_svg(drawing);
