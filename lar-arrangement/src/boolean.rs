@@ -139,6 +139,25 @@ impl Arrangement {
         }
     }
 
+    /// The union of some cells; cells that do not exist are left out.
+    ///
+    /// ```
+    /// use lar_arrangement::arrange;
+    /// use lar_core::{CellId, cuboid_grid};
+    /// let bar = arrange(&[cuboid_grid(&[3, 1, 1]).to_surface("bar")?])?;
+    /// let ends = bar.union_of_cells([CellId(1), CellId(3)]);
+    /// assert_eq!((ends.cells().len(), ends.volume(), ends.area()), (2, 2.0, 12.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn union_of_cells(&self, cells: impl IntoIterator<Item = CellId>) -> Solid<'_> {
+        let mut inside = vec![false; self.n_cells()];
+        for cell in cells {
+            inside.get_mut(cell.index()).into_iter().for_each(|bit| *bit = true);
+        }
+        self.solid(inside)
+    }
+
     /// The union of the cells for which `inside` holds.
     fn solid(&self, inside: Vec<bool>) -> Solid<'_> {
         let cells = (0..).map(CellId).zip(&inside).filter(|(_, inside)| **inside).map(|(c, _)| c).collect();

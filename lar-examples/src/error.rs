@@ -1,7 +1,7 @@
 //! What the commands refuse, and the exit codes.
 
 use lar_arrangement::{ArrangementError, BooleanError, ExpressionError};
-use lar_core::{FileError, JsonError, MeshFileError, ObjError, SvgError};
+use lar_core::{FileError, IntegrationError, JsonError, MeshFileError, ModelJsonError, ObjError, SvgError};
 use lar_triangle::TriangulateError;
 use std::io;
 use std::path::PathBuf;
@@ -29,6 +29,48 @@ pub enum CommandError {
     /// A file cannot be written.
     #[error(transparent)]
     File(#[from] FileError),
+    /// A file cannot be read.
+    #[error("cannot read {}: {source}", .path.display())]
+    Read {
+        /// The path.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// A model or hierarchy cannot be read.
+    #[error(transparent)]
+    Model(#[from] ModelJsonError),
+    /// A file breaks the rules of what it holds.
+    #[error("{}: {}", .path.display(), if *.violations == 1 { "1 violation".to_owned() } else { format!("{} violations", .violations) })]
+    Invalid {
+        /// The file.
+        path: PathBuf,
+        /// How many.
+        violations: usize,
+    },
+    /// A surface encloses no space.
+    #[error("{}: the surface encloses nothing", .path.display())]
+    EnclosesNothing {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A complex has no faces to be written as a surface.
+    #[error("{}: edges without faces cannot be written as a surface", .path.display())]
+    NoFaces {
+        /// The file.
+        path: PathBuf,
+    },
+    /// What is to be drawn does not lie in the plane.
+    #[error("{}: only drawings and complexes of the plane can be written as {}", .path.display(), .output.display())]
+    NotPlanar {
+        /// The file.
+        path: PathBuf,
+        /// The file to be written.
+        output: PathBuf,
+    },
+    /// Mass properties cannot be computed.
+    #[error(transparent)]
+    Integration(#[from] IntegrationError),
     /// A file or directory cannot be written.
     #[error("cannot write {}: {source}", .path.display())]
     Write {
@@ -140,10 +182,12 @@ impl From<BooleanError> for CommandError {
 }
 
 impl CommandError {
-    /// 3 when there is no graphics adapter or display, 2 for bad input or usage and everything else.
+    /// 1 when what was asked about a file is not so, 3 when there is no graphics adapter or display, 2 for bad input or
+    /// usage and everything else.
     #[must_use]
     pub fn exit_code(&self) -> u8 {
         match self {
+            Self::Invalid { .. } => 1,
             #[cfg(feature = "viewer")]
             Self::Viewer(lar_viewer::ViewerError::NoAdapter { .. }) => 3,
             #[cfg(feature = "window")]

@@ -33,7 +33,10 @@ pub use panels::panels;
 pub use program::{run_figure1, run_figure2, run_figure3, run_figures};
 
 use crate::CommandError;
-use lar_viewer::{OffscreenRenderer, Scene, View};
+use crate::shapes::{self, Shapes};
+use lar_arrangement::Arrangement;
+use lar_core::Model;
+use lar_viewer::{CellShape, OffscreenRenderer, Scene, View};
 use std::path::Path;
 
 /// A picture: what is drawn, from where, and in how many pixels.
@@ -51,6 +54,32 @@ pub struct Figure {
     pub size: [u32; 2],
     /// The same as an SVG document, for pictures of the plane.
     pub svg: Option<String>,
+}
+
+/// The bounded 3-cells of an arrangement, in the form in which the viewer draws them: the triangles of their boundaries,
+/// and their edges.
+///
+/// ```
+/// use lar_examples::{figures::bounded_cells, scenes};
+/// let cubes = lar_arrangement::arrange(&scenes::surfaces(&scenes::three_cubes())?)?;
+/// let names: Vec<String> = bounded_cells(&cubes)?.into_iter().map(|cell| cell.name).collect();
+/// assert_eq!(names, ["c1", "c2", "c3", "c4", "c5", "c6", "c7"]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// When a face cannot be triangulated.
+pub fn bounded_cells(arrangement: &Arrangement) -> Result<Vec<CellShape>, CommandError> {
+    Ok(Shapes::new(arrangement)?.bounded_cells()?)
+}
+
+/// The cells of highest dimension of a model, in the form in which the viewer draws them; a model of the plane lies in
+/// z = 0.
+///
+/// # Errors
+/// When the model is malformed or a face cannot be triangulated.
+pub fn model_cells(model: &Model) -> Result<Vec<CellShape>, CommandError> {
+    shapes::model_cells(model)
 }
 
 /// Draws the figures and writes them as `NAME.png`, those of the plane also as `NAME.svg`, into a directory, which is

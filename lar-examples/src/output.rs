@@ -8,6 +8,22 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+/// What all reports begin with.
+const FORMAT: &str = "lar-report";
+
+/// Raised when a field of a report goes or changes its meaning; new fields leave it.
+const VERSION: u32 = 1;
+
+/// A report with what says which one it is.
+#[derive(Serialize)]
+struct Envelope<'a, R> {
+    format: &'static str,
+    version: u32,
+    report: &'static str,
+    #[serde(flatten)]
+    content: &'a R,
+}
+
 /// Where a report goes: a file, or the standard output for `-`.
 #[derive(Clone, Debug)]
 pub(crate) enum Sink {
@@ -30,9 +46,15 @@ impl Sink {
         }
     }
 
-    /// Writes the report as indented JSON.
-    pub(crate) fn write(&self, report: &impl Serialize, out: &mut dyn Write) -> Result<(), CommandError> {
-        let mut text = serde_json::to_string_pretty(report)?;
+    /// Writes the report of this name as indented JSON.
+    pub(crate) fn write(
+        &self,
+        name: &'static str,
+        report: &impl Serialize,
+        out: &mut dyn Write,
+    ) -> Result<(), CommandError> {
+        let envelope = Envelope { format: FORMAT, version: VERSION, report: name, content: report };
+        let mut text = serde_json::to_string_pretty(&envelope)?;
         text.push('\n');
         match self {
             Self::Standard => out.write_all(text.as_bytes())?,

@@ -41,6 +41,11 @@ impl<'a> Shapes<'a> {
         })
     }
 
+    /// All cells but the first, which is the exterior of an arrangement.
+    pub(crate) fn bounded_cells(&self) -> Result<Vec<CellShape>, TriangulateError> {
+        (1..).map(CellId).take(self.complex.n_cells(3).saturating_sub(1)).map(|c| self.cell(c)).collect()
+    }
+
     /// A face: its triangles, and the edges of its loops.
     pub(crate) fn face(&self, face: FaceId) -> Result<CellShape, TriangulateError> {
         Ok(CellShape {

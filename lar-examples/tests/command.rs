@@ -197,7 +197,22 @@ fn facts() {
 fn help_and_version() {
     let place = Place::new();
     assert_eq!(done(&place, &["--version"]).out, format!("lar {}\n", env!("CARGO_PKG_VERSION")));
-    let pages = ["", "arrange", "boolean", "render", "view", "info", "plane"].map(|command| {
+    let pages = [
+        "",
+        "arrange",
+        "boolean",
+        "render",
+        "view",
+        "info",
+        "measure",
+        "validate",
+        "clean",
+        "convert",
+        "plane",
+        "completions",
+        "man",
+    ]
+    .map(|command| {
         let args: Vec<&str> = [command, "--help"].into_iter().filter(|a| !a.is_empty()).collect();
         done(&place, &args).out
     });
@@ -227,4 +242,145 @@ fn results_in_other_formats() {
     }
     done(&place, &words("boolean A|B a.obj b.obj -o union.glb"));
     assert!(place.path("union.glb").metadata().is_ok_and(|m| m.len() > 1000));
+}
+
+#[test]
+fn several_expressions_in_one_arrangement() {
+    let place = Place::with_cubes();
+    let line = "boolean -e both=A&B&C -e rest=A-B-C a.obj b.obj c.obj -o results --format ply --json -";
+    let report: Value = serde_json::from_str(&done(&place, &words(line)).out).unwrap();
+    let volumes: Vec<f64> =
+        report["results"].as_array().unwrap().iter().map(|r| r["volume"].as_f64().unwrap()).collect();
+    assert!((volumes[0] - 0.059_034).abs() < 1e-6 && (volumes[1] - 0.597_214).abs() < 1e-6, "{volumes:?}");
+    for (name, volume) in ["both", "rest"].iter().zip(volumes) {
+        let surface = lar_core::read_surface(place.path(&format!("results/{name}.ply"))).unwrap().surface;
+        let found = surface.volume_integral([0; 3]).unwrap();
+        assert!((found - volume).abs() < 1e-9, "{name}: {found} and {volume}");
+    }
+    let twice = place.lar(&words("boolean -e x=A -e x=B a.obj b.obj -o other"));
+    assert_eq!((twice.code, twice.err.as_str()), (2, "lar: two expressions are named x\n"));
+}
+
+/// Two overlapping cubes in one file, the faces of the second turned when `inverted`.
+fn overlapping(place: &Place, inverted: bool) {
+    let [a, b] = ["a.obj", "b.obj"].map(|name| place.read(name));
+    let vertices = |text: &str| text.lines().filter(|l| l.starts_with("v ")).collect::<Vec<_>>().join("\n");
+    let face = |line: &str| {
+        let mut corners: Vec<String> = line
+            .split(' ')
+            .skip(1)
+            .map(|v| (v.parse::<usize>().expect("a number") + 8).to_string())
+            .collect();
+        if inverted {
+            corners.reverse();
+        }
+        format!("f {}\n", corners.join(" "))
+    };
+    let faces: String = b.lines().filter(|l| l.starts_with("f ")).map(face).collect();
+    let first: Vec<&str> = a.lines().filter(|l| l.starts_with("f ")).collect();
+    place.write("two.obj", format!("{}\n{}\n{}\n{faces}", vertices(&a), vertices(&b), first.join("\n")));
+}
+
+#[test]
+fn cleaning() {
+    let place = Place::with_cubes();
+    let volume = |options: &str| {
+        let line = format!("clean two.obj -o out.obj --json -{options}");
+        let report: Value = serde_json::from_str(&done(&place, &words(&line)).out).expect("valid JSON");
+        assert!(mesh(&place, "out.obj").is_closed() && report["closed"] == true);
+        report["volume"].as_f64().expect("a bounded result")
+    };
+    let common = 0.355_914;
+    overlapping(&place, false);
+    let rules =
+        [("", 2.0 - common), (" --rule nonzero", 2.0 - common), (" --rule even-odd", 2.0 - 2.0 * common)];
+    for (rule, expected) in rules {
+        assert!((volume(rule) - expected).abs() < 1e-6, "{rule}");
+    }
+    overlapping(&place, true);
+    // Inside out: the second cube takes away from the first, by the rule `positive`.
+    for (rule, expected) in [("", 2.0 - common), (" --rule positive", 1.0 - common)] {
+        assert!((volume(rule) - expected).abs() < 1e-6, "{rule}, inverted");
+    }
+}
+
+#[test]
+fn validation() {
+    let place = Place::with_cubes();
+    let cube = place.read("a.obj");
+    place.write("open.obj", &cube[..cube.trim_end().rfind('\n').expect("lines")]);
+    overlapping(&place, true);
+    done(&place, &words("arrange a.obj b.obj --complex complex.json"));
+    let sign = place.read("complex.json").replacen("-1", "1", 1);
+    place.write("broken.json", sign);
+    let said = ["a.obj", "open.obj", "two.obj", "complex.json", "broken.json"].map(|file| {
+        let run = place.lar(&["validate", file]);
+        format!("$ lar validate {file}\n{}{}exit code {}\n", run.out, run.err, run.code)
+    });
+    insta::assert_snapshot!(said.concat());
+}
+
+#[test]
+fn measures() {
+    let place = Place::with_cubes();
+    let line = "measure a.obj b.obj c.obj --density 2 --density B=7";
+    insta::assert_snapshot!(done(&place, &words(line)).out);
+    let report: Value =
+        serde_json::from_str(&done(&place, &[words(line), vec!["--json", "-"]].concat()).out).unwrap();
+    let mass = |value: &Value| value["mass"].as_f64().unwrap();
+    let cells: f64 = report["cells"].as_array().unwrap().iter().map(mass).sum();
+    assert!((mass(&report["total"]) - cells).abs() < 1e-12);
+    assert!((mass(&report["inputs"][1]) - 7.0).abs() < 1e-9, "all of B has its own density");
+}
+
+/// A file of each kind becomes one of each other kind of the same dimension.
+#[test]
+fn conversions() {
+    let place = Place::with_cubes();
+    done(&place, &words("boolean A-B a.obj b.obj -o solid.json"));
+    done(&place, &words("arrange a.obj b.obj --complex cells.json"));
+    lar_core::cuboid_grid(&[2, 1, 1]).write_json(place.path("model.json")).unwrap();
+    let hierarchy =
+        lar_core::Struct::new("row").with(lar_core::cuboid_grid(&[1, 1, 1])).with(lar_core::t(&[3., 0., 0.]));
+    hierarchy.with(lar_core::cuboid_grid(&[1, 1, 1])).write_json(place.path("struct.json")).unwrap();
+    let volumes = [
+        ("a.obj", 1.0),
+        ("solid.json", 0.644_086),
+        ("cells.json", 1.644_086),
+        ("model.json", 2.0),
+        ("struct.json", 2.0),
+    ];
+    for (input, volume) in volumes {
+        for output in ["out.obj", "out.stl", "out.ply", "out.off"] {
+            done(&place, &["convert", input, output]);
+            let surface = lar_core::read_surface(place.path(output)).unwrap().surface;
+            let found = surface.volume_integral([0; 3]).unwrap();
+            assert!((found - volume).abs() < 1e-5, "{input} as {output}: {found}");
+        }
+    }
+    place.write("plan.svg", std::fs::read(support::fixture("plan.svg")).unwrap());
+    let area = |file: &str| -> Value {
+        let run = done(&place, &["plane", file, "--json", "-"]);
+        serde_json::from_str::<Value>(&run.out).unwrap()["area"].clone()
+    };
+    done(&place, &words("convert plan.svg plan.seg"));
+    done(&place, &words("convert plan.seg plan.json"));
+    done(&place, &words("convert plan.json again.seg"));
+    let [first, second, third] = ["plan.svg", "plan.seg", "again.seg"].map(|f| area(f).as_f64().unwrap());
+    assert!((first - second).abs() < 1e-6 * first && (first - third).abs() < 1e-6 * first);
+}
+
+#[test]
+fn completions_and_manual_pages() {
+    let place = Place::new();
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let script = done(&place, &["completions", shell]).out;
+        assert!(["measure", "validate", "tolerance"].iter().all(|word| script.contains(word)), "{shell}");
+    }
+    assert!(done(&place, &["man"]).out.contains(".TH lar 1"));
+    done(&place, &["man", "--out", "pages"]);
+    let names: Vec<String> =
+        place.files().iter().skip(1).map(|p| p.file_name().unwrap().to_string_lossy().into_owned()).collect();
+    assert_eq!(names.len(), 13, "lar and twelve subcommands: {names:?}");
+    assert!(place.read("pages/lar-boolean.1").contains("difference"));
 }

@@ -113,6 +113,25 @@ fn the_collection() {
     }
 }
 
+/// Each figure has a page with its pictures and the numbers that it prints.
+#[test]
+fn pages() {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/figures");
+    let index = std::fs::read_to_string(docs.join("README.md")).unwrap();
+    for entry in figures::COLLECTION {
+        let name = entry.name;
+        let page = std::fs::read_to_string(docs.join(format!("{name}.md"))).unwrap();
+        let drawn = entry.draw(&Request::default()).unwrap();
+        assert!(page.contains(&format!("```text\n{}```\n", drawn.numbers)), "{name}: {}", drawn.numbers);
+        assert!(page.contains("```rust\n"), "{name} has a program");
+        assert!(index.contains(&format!("({name}.md)")), "{name} in the index");
+        for figure in drawn.figures {
+            let file = format!("{}.png", figure.name);
+            assert!(page.contains(&format!("({file})")) && docs.join(&file).exists(), "{file}");
+        }
+    }
+}
+
 #[test]
 fn figures_writes_what_it_is_asked_for() {
     if renderer().is_none() {

@@ -164,6 +164,39 @@ fn options() {
     ]));
 }
 
+/// The commands that came later.
+#[test]
+fn newer_commands() {
+    insta::assert_snapshot!(check(&[
+        "measure",
+        "measure open.obj --density 0",
+        "measure solid.obj --density B=2",
+        "measure cut.obj",
+        "validate missing.obj",
+        "validate complex.json",
+        "clean open.obj -o out.obj",
+        "clean open.obj -o out.obj --rule nonzero",
+        "clean turned.obj -o out.obj --rule positive",
+        "clean solid.obj -o full",
+        "clean solid.obj -o out.obj --rule best",
+        "convert solid.obj",
+        "convert solid.obj out.step",
+        "convert solid.obj out.svg",
+        "convert solid.obj no/out.stl",
+        "convert solid.obj solid.obj/out.stl",
+        "convert missing.json out.obj",
+        "convert complex.json out.obj",
+        "convert solid.glb out.obj",
+        "boolean -e A solid.obj -o out",
+        "boolean -e ../x=A solid.obj -o out",
+        "boolean -e x=A+ solid.obj -o out",
+        "boolean -e x=A solid.obj -o full",
+        "boolean A solid.obj -o out.obj --format stl",
+        "completions tcsh",
+        "man --out full",
+    ]));
+}
+
 #[test]
 fn line_breaks_in_names_stay_in_one_line() {
     let run = place().lar(&["info", "no\nsuch\r.obj"]);

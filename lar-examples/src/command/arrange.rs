@@ -1,10 +1,10 @@
 //! `lar arrange`: the partition of space that the inputs generate.
 
 use super::input::{Inputs, Operands};
-use super::report::{Coplanarity, Moves, Operand, Stages, Threads, arrange, counted, print_laws};
+use super::report::{Coplanarity, Json, Moves, Operand, Stages, Threads, arrange, counted, print_laws};
 use super::stats::{Counters, Table, peak_memory};
 use crate::checks::{boundary_squared_zero, parents_ok};
-use crate::output::{Sink, check_directory, check_distinct, check_file, write_directory};
+use crate::output::{check_directory, check_distinct, check_file, write_directory};
 use crate::{CommandError, tables};
 use lar_arrangement::Arrangement;
 use lar_core::CellId;
@@ -18,12 +18,14 @@ const ROWS: usize = 40;
 
 /// The partition of space that the inputs generate: counts, volumes, which cell is inside which input.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  \
+                        lar arrange a.obj b.stl\n  \
+                        lar arrange body=a.obj hole=b.obj --json report.json --complex complex.json --obj cells")]
 pub(crate) struct Arrange {
     #[command(flatten)]
     inputs: Inputs,
-    /// Write the report as JSON to a file, or with `-` to the standard output.
-    #[arg(long, value_name = "PATH")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    json: Json,
     /// Write the chain complex as JSON.
     #[arg(long, value_name = "PATH")]
     complex: Option<PathBuf>,
@@ -86,8 +88,7 @@ struct Seconds {
 impl Arrange {
     pub(crate) fn run(&self, out: &mut dyn Write) -> Result<(), CommandError> {
         let start = Instant::now();
-        let sink = self.json.as_deref().map(Sink::from);
-        self.check_outputs(sink.as_ref())?;
+        self.check_outputs()?;
         let operands = self.inputs.read()?;
         let (arrangement, time) = arrange(&operands.surfaces, self.threads, self.coplanarity)?;
         let report = self.report(&arrangement, &operands, time, start);
@@ -97,23 +98,20 @@ impl Arrange {
         if let Some(path) = &self.complex {
             arrangement.complex().write_json(path)?;
         }
-        if let Some(sink) = &sink {
-            sink.write(&report, out)?;
-        }
-        if !matches!(sink, Some(Sink::Standard)) {
+        self.json.deliver("arrange", &report, out, |out| {
             print(&arrangement, &report, out)?;
             if self.stats {
                 let stages = &arrangement.stats().stages;
                 let (counters, peak_memory) = (&report.counters, report.peak_memory);
                 write!(out, "{}", Table { stages, counters, peak_memory })?;
             }
-        }
-        Ok(())
+            Ok(())
+        })
     }
 
-    fn check_outputs(&self, sink: Option<&Sink>) -> Result<(), CommandError> {
-        check_distinct([self.json.as_deref(), self.complex.as_deref(), self.obj.as_deref()])?;
-        sink.map_or(Ok(()), Sink::check)?;
+    fn check_outputs(&self) -> Result<(), CommandError> {
+        check_distinct([self.json.path(), self.complex.as_deref(), self.obj.as_deref()])?;
+        self.json.check()?;
         self.complex.as_deref().map_or(Ok(()), check_file)?;
         self.obj.as_deref().map_or(Ok(()), check_directory)
     }

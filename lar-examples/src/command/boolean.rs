@@ -1,32 +1,45 @@
-//! `lar boolean`: a Boolean expression over the inputs, as a surface.
+//! `lar boolean`: Boolean expressions over the inputs, as surfaces.
 
-use super::input::{Inputs, Operands, is_json};
-use super::report::{Coplanarity, Moves, Operand, Stages, Threads, arrange, counted};
+use super::input::{Operands, operands};
+use super::report::{Coplanarity, Json, Moves, Operand, Stages, Threads, arrange};
+use super::result::{Counts, Surfaces};
 use crate::CommandError;
-use crate::output::{Sink, check_distinct, check_file};
-use lar_arrangement::{Arrangement, Detail, Expression, FillRule, Solid, SolidComplex};
-use lar_core::{FaceId, MeshFormat, TriangleMesh, write_mesh};
+use crate::output::{check_directory, check_distinct, check_file, write_directory};
+use lar_arrangement::{Arrangement, Detail, Expression, FillRule};
 use serde::Serialize;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// A Boolean expression over the inputs: the surface of the result.
+/// Boolean expressions over the inputs: the surfaces of the results.
 #[derive(Debug, clap::Args)]
+#[command(
+    override_usage = "lar boolean [OPTIONS] -o OUT <EXPR> <INPUT>...\n       \
+                      lar boolean [OPTIONS] -o DIR -e NAME=EXPR... <INPUT>...",
+    after_help = "Examples:\n  \
+                  lar boolean 'A - (B | C)' a.obj b.stl c.ply -o out.obj\n  \
+                  lar boolean 'body - hole' body=plate.stl hole=rod.stl -o out.stl --json -\n  \
+                  lar boolean -e both='A & B' -e rest='A - B' a.obj b.obj -o results --format stl"
+)]
 pub(crate) struct Boolean {
-    /// Expression over the names of the inputs: `!` complement, `&` intersection, `-` difference, `^` symmetric
-    /// difference, `|` union, from the tightest to the loosest, and parentheses.
-    #[arg(value_name = "EXPR")]
-    expression: String,
-    #[command(flatten)]
-    inputs: Inputs,
+    /// The expression, then the inputs; the inputs alone when expressions are given by -e. An expression is over the
+    /// names of the inputs: `!` complement, `&` intersection, `-` difference, `^` symmetric difference, `|` union, from
+    /// the tightest to the loosest, and parentheses. Inputs are OBJ, STL, PLY or OFF files, each one operand: named
+    /// A, B, C, … in order, or NAME=PATH.
+    #[arg(value_name = "EXPR> <INPUT", required = true)]
+    arguments: Vec<PathBuf>,
+    /// One of several expressions, all of them evaluated in one arrangement; its result is NAME in the directory OUT.
+    #[arg(short, long = "expr", value_name = "NAME=EXPR", value_parser = named_expression)]
+    expressions: Vec<(String, String)>,
     /// Result: triangles in the format of the extension (.obj, .stl, .ply, .off, .glb; OBJ for any other), or, when the
-    /// name ends in `.json`, polygons with holes as a chain complex.
+    /// name ends in `.json`, polygons with holes as a chain complex. With -e a new directory.
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
-    /// Write a report as JSON to a file, or with `-` to the standard output.
-    #[arg(long, value_name = "PATH")]
-    json: Option<PathBuf>,
+    /// Extension of the results of -e.
+    #[arg(long, value_enum, value_name = "EXT", default_value_t, requires = "expressions")]
+    format: Extension,
+    #[command(flatten)]
+    json: Json,
     /// What winding number counts as inside.
     #[arg(long, value_enum, value_name = "RULE", default_value_t)]
     fill: Fill,
@@ -61,27 +74,59 @@ impl From<Fill> for FillRule {
     }
 }
 
-/// The JSON of a Boolean. The counts are those of the result's polygons, but for `triangles`.
+#[derive(Clone, Copy, Debug, Default, clap::ValueEnum)]
+enum Extension {
+    #[default]
+    Obj,
+    Stl,
+    Ply,
+    Off,
+    Glb,
+    /// Polygons with holes as a chain complex.
+    Json,
+}
+
+/// A name that a file can have, and an expression.
+fn named_expression(text: &str) -> Result<(String, String), &'static str> {
+    let found = text.split_once('=').filter(|(name, _)| {
+        let is_plain = |c: char| c.is_alphanumeric() || "_-.".contains(c);
+        !name.is_empty() && !name.starts_with('.') && name.chars().all(is_plain)
+    });
+    let (name, expression) =
+        found.ok_or("a named expression is NAME=EXPR, the name of letters, digits, _, - and .")?;
+    Ok((name.to_owned(), expression.to_owned()))
+}
+
+/// The JSON of one expression.
 #[derive(Debug, Serialize)]
 struct Report {
-    vertices: usize,
-    edges: usize,
-    faces: usize,
-    triangles: usize,
-    components: usize,
-    loops: usize,
-    /// `null` when the result is unbounded.
-    volume: Option<f64>,
-    area: f64,
-    /// Each edge is used as often in one direction as in the other.
-    closed: bool,
-    bounded: bool,
-    /// V − E + Σ over faces of (2 − loops).
-    euler: i64,
+    #[serde(flatten)]
+    counts: Counts,
     expression: String,
+    #[serde(flatten)]
+    common: Common,
+}
+
+/// The JSON of several.
+#[derive(Debug, Serialize)]
+struct BatchReport {
+    results: Vec<Named>,
+    #[serde(flatten)]
+    common: Common,
+}
+
+#[derive(Debug, Serialize)]
+struct Named {
+    name: String,
+    file: String,
+    expression: String,
+    #[serde(flatten)]
+    counts: Counts,
+}
+
+#[derive(Debug, Serialize)]
+struct Common {
     fill: Fill,
-    /// The cells of the arrangement that make up the result.
-    cells: Vec<u32>,
     inputs: Vec<Operand>,
     grid_step: f64,
     moved: Moves,
@@ -94,7 +139,7 @@ struct Report {
 struct Seconds {
     read: f64,
     arrange: f64,
-    /// Choice of the cells, and their surface as a complex.
+    /// Choice of the cells, and their surfaces as complexes.
     boolean: f64,
     triangulate: f64,
     /// The whole operation, without reading and writing.
@@ -104,82 +149,93 @@ struct Seconds {
     stages: Stages,
 }
 
-/// The result in both forms.
-struct Surfaces {
-    polygons: SolidComplex,
-    triangles: TriangleMesh,
-    boolean: Duration,
-    triangulate: Duration,
+/// Names and texts of expressions.
+type Texts<'a> = Vec<(&'a str, &'a str)>;
+
+/// An expression: its name, its text, itself.
+struct Task<'a> {
+    name: &'a str,
+    text: &'a str,
+    expression: Expression,
 }
 
 impl Boolean {
     pub(crate) fn run(&self, out: &mut dyn Write) -> Result<(), CommandError> {
         let start = Instant::now();
-        let sink = self.json.as_deref().map(Sink::from);
-        check_distinct([Some(self.output.as_path()), self.json.as_deref()])?;
-        check_file(&self.output)?;
-        sink.as_ref().map_or(Ok(()), Sink::check)?;
-        let operands = self.inputs.read()?;
-        let expression = Expression::parse(&self.expression, &operands.names())?;
-        let (arrangement, time) = arrange(&operands.surfaces, self.threads, self.coplanarity)?;
-        let before = Instant::now();
-        let solid = arrangement
-            .boolean(&expression, self.fill.into())
-            .map_err(|source| CommandError::Boolean { file: operands.file_of(&source), source })?;
-        let surfaces = self.surfaces(&solid, before)?;
-        let report = self.report(&arrangement, &operands, &solid, &surfaces, (time, start));
-        if is_json(&self.output) {
-            surfaces.polygons.complex.write_json(&self.output)?;
-        } else if MeshFormat::of_path(&self.output).is_some() {
-            write_mesh(&self.output, &surfaces.triangles)?;
+        check_distinct([Some(self.output.as_path()), self.json.path()])?;
+        let is_batch = !self.expressions.is_empty();
+        if is_batch {
+            check_directory(&self.output)?;
         } else {
-            surfaces.triangles.write_obj(&self.output)?;
+            check_file(&self.output)?;
+        };
+        self.json.check()?;
+        let (texts, inputs) = self.split()?;
+        let operands = operands(inputs)?;
+        let names = operands.names();
+        let task = |&(name, text)| Ok(Task { name, text, expression: Expression::parse(text, &names)? });
+        let tasks: Vec<Task<'_>> = texts.iter().map(task).collect::<Result<_, CommandError>>()?;
+        let (arrangement, time) = arrange(&operands.surfaces, self.threads, self.coplanarity)?;
+        let mut results = self.results(&tasks, &arrangement, &operands)?;
+        let common = self.common(&arrangement, &operands, &results, (time, start));
+        if is_batch {
+            self.write_batch(&tasks, results, common, out)
+        } else {
+            self.write_single(tasks[0].text, results.remove(0), common, out)
         }
-        if let Some(sink) = &sink {
-            sink.write(&report, out)?;
-        }
-        if !matches!(sink, Some(Sink::Standard)) {
-            self.print(&report, out)?;
-        }
-        Ok(())
     }
 
-    fn surfaces(&self, solid: &Solid<'_>, before: Instant) -> Result<Surfaces, CommandError> {
+    /// Names and texts of the expressions, and the inputs.
+    fn split(&self) -> Result<(Texts<'_>, &[PathBuf]), CommandError> {
+        if !self.expressions.is_empty() {
+            let mut names: Vec<&str> = self.expressions.iter().map(|(name, _)| name.as_str()).collect();
+            names.sort_unstable();
+            if let Some(w) = names.windows(2).find(|w| w[0] == w[1]) {
+                return Err(CommandError::Usage(format!("two expressions are named {}", w[0])));
+            }
+            let texts = self.expressions.iter().map(|(name, text)| (name.as_str(), text.as_str()));
+            return Ok((texts.collect(), &self.arguments));
+        }
+        match self.arguments.as_slice() {
+            [_] | [] => {
+                Err(CommandError::Usage("an expression and at least one input are needed".to_owned()))
+            }
+            [expression, inputs @ ..] => match expression.to_str() {
+                Some(text) => Ok((vec![("", text)], inputs)),
+                None => Err(CommandError::Usage("the expression is no Unicode text".to_owned())),
+            },
+        }
+    }
+
+    fn results(
+        &self,
+        tasks: &[Task<'_>],
+        arrangement: &Arrangement,
+        operands: &Operands,
+    ) -> Result<Vec<(Counts, Surfaces)>, CommandError> {
         let detail = if self.keep_fragments { Detail::Fragments } else { Detail::Simplified };
-        let polygons = solid.to_complex(detail);
-        let boolean = before.elapsed();
-        let before = Instant::now();
-        let faces = (0..).map(|f| (FaceId(f), 1)).take(polygons.n_faces());
-        let triangles =
-            lar_triangle::triangulate(&polygons.complex)?.mesh_of_faces(polygons.complex.points(), faces)?;
-        Ok(Surfaces { polygons, triangles, boolean, triangulate: before.elapsed() })
+        let result = |task: &Task<'_>| {
+            let before = Instant::now();
+            let solid = arrangement
+                .boolean(&task.expression, self.fill.into())
+                .map_err(|source| CommandError::Boolean { file: operands.file_of(&source), source })?;
+            let surfaces = Surfaces::new(&solid, detail, before)?;
+            Ok((Counts::new(&solid, &surfaces), surfaces))
+        };
+        tasks.iter().map(result).collect()
     }
 
-    fn report(
+    fn common(
         &self,
         arrangement: &Arrangement,
         operands: &Operands,
-        solid: &Solid<'_>,
-        surfaces: &Surfaces,
+        results: &[(Counts, Surfaces)],
         (arrange, start): (Duration, Instant),
-    ) -> Report {
-        let polygons = &surfaces.polygons;
-        let operation = arrange + surfaces.boolean + surfaces.triangulate;
-        let mut report = Report {
-            vertices: polygons.complex.n_cells(0),
-            edges: polygons.complex.n_cells(1),
-            faces: polygons.n_faces(),
-            triangles: surfaces.triangles.triangles.len(),
-            components: polygons.n_components(),
-            loops: polygons.n_loops(),
-            volume: solid.is_bounded().then(|| solid.volume()),
-            area: solid.area(),
-            closed: polygons.is_closed() && surfaces.triangles.is_closed(),
-            bounded: solid.is_bounded(),
-            euler: polygons.euler(),
-            expression: self.expression.clone(),
+    ) -> Common {
+        let sum = |of: fn(&Surfaces) -> Duration| results.iter().map(|(_, s)| of(s)).sum::<Duration>();
+        let (boolean, triangulate) = (sum(|s| s.boolean), sum(|s| s.triangulate));
+        Common {
             fill: self.fill,
-            cells: solid.cells().iter().map(|c| c.0).collect(),
             inputs: Operand::all(arrangement, operands),
             grid_step: arrangement.stats().grid_step,
             moved: Moves::of(arrangement.stats()),
@@ -188,31 +244,71 @@ impl Boolean {
             seconds: Seconds {
                 read: operands.read.as_secs_f64(),
                 arrange: arrange.as_secs_f64(),
-                boolean: surfaces.boolean.as_secs_f64(),
-                triangulate: surfaces.triangulate.as_secs_f64(),
-                operation: operation.as_secs_f64(),
-                total: 0.0,
+                boolean: boolean.as_secs_f64(),
+                triangulate: triangulate.as_secs_f64(),
+                operation: (arrange + boolean + triangulate).as_secs_f64(),
+                total: start.elapsed().as_secs_f64(),
                 stages: Stages::of(arrangement.stats()),
             },
-        };
-        report.seconds.total = start.elapsed().as_secs_f64();
-        report
+        }
     }
 
-    fn print(&self, report: &Report, out: &mut dyn Write) -> Result<(), CommandError> {
-        let counts = [
-            counted(report.vertices, "vertex"),
-            counted(report.edges, "edge"),
-            counted(report.faces, "face"),
-            counted(report.triangles, "triangle"),
-            counted(report.components, "component"),
-        ];
-        writeln!(out, "{}: {}", self.expression, counts.join(", "))?;
-        let volume = report.volume.map_or("unbounded".to_owned(), |v| format!("volume {v}"));
-        let closed = if report.closed { "closed" } else { "NOT CLOSED" };
-        writeln!(out, "{volume}, area {}, {closed}, Euler characteristic {}", report.area, report.euler)?;
-        let seconds = &report.seconds;
-        writeln!(out, "{:.3} s to read, {:.3} s for the operation", seconds.read, seconds.operation)?;
+    fn write_single(
+        &self,
+        text: &str,
+        (counts, surfaces): (Counts, Surfaces),
+        common: Common,
+        out: &mut dyn Write,
+    ) -> Result<(), CommandError> {
+        surfaces.write(&self.output)?;
+        let report = Report { counts, expression: text.to_owned(), common };
+        self.json.deliver("boolean", &report, out, |out| {
+            report.counts.print(text, out)?;
+            report.common.seconds.print(out)
+        })
+    }
+
+    fn write_batch(
+        &self,
+        tasks: &[Task<'_>],
+        results: Vec<(Counts, Surfaces)>,
+        common: Common,
+        out: &mut dyn Write,
+    ) -> Result<(), CommandError> {
+        let file = |task: &Task<'_>, dir: &Path| dir.join(format!("{}.{}", task.name, self.extension()));
+        write_directory(&self.output, |dir| {
+            tasks.iter().zip(&results).try_for_each(|(task, (_, surfaces))| surfaces.write(&file(task, dir)))
+        })?;
+        let named = |(task, (counts, _)): (&Task<'_>, (Counts, Surfaces))| Named {
+            name: task.name.to_owned(),
+            file: file(task, &self.output).display().to_string(),
+            expression: task.text.to_owned(),
+            counts,
+        };
+        let report = BatchReport { results: tasks.iter().zip(results).map(named).collect(), common };
+        self.json.deliver("boolean-batch", &report, out, |out| {
+            for result in &report.results {
+                result.counts.print(&format!("{} = {}", result.name, result.expression), out)?;
+            }
+            report.common.seconds.print(out)
+        })
+    }
+
+    fn extension(&self) -> &'static str {
+        match self.format {
+            Extension::Obj => "obj",
+            Extension::Stl => "stl",
+            Extension::Ply => "ply",
+            Extension::Off => "off",
+            Extension::Glb => "glb",
+            Extension::Json => "json",
+        }
+    }
+}
+
+impl Seconds {
+    fn print(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+        writeln!(out, "{:.3} s to read, {:.3} s for the operation", self.read, self.operation)?;
         Ok(())
     }
 }

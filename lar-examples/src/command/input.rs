@@ -69,12 +69,17 @@ impl Inputs {
 
     /// Reads all operands.
     pub(crate) fn read(&self) -> Result<Operands, CommandError> {
-        let named = named(&self.inputs)?;
-        let start = Instant::now();
-        let surfaces = named.iter().map(|(name, path)| read(name, path)).collect::<Result<_, _>>()?;
-        let files = named.into_iter().map(|(_, path)| path).collect();
-        Ok(Operands { surfaces, files, read: start.elapsed() })
+        operands(&self.inputs)
     }
+}
+
+/// Reads all operands.
+pub(crate) fn operands(inputs: &[PathBuf]) -> Result<Operands, CommandError> {
+    let named = named(inputs)?;
+    let start = Instant::now();
+    let surfaces = named.iter().map(|(name, path)| read(name, path)).collect::<Result<_, _>>()?;
+    let files = named.into_iter().map(|(_, path)| path).collect();
+    Ok(Operands { surfaces, files, read: start.elapsed() })
 }
 
 /// The name and the path of `name=path`; `None` when there is no name before a `=`, or the whole is an existing file.

@@ -6,9 +6,16 @@
 //!           [--merge-coplanar] [--threads N]
 //! lar boolean EXPR INPUT... -o OUT [--json PATH|-] [--fill RULE] [--keep-fragments] [--as-given | --tolerance LENGTH]
 //!           [--merge-coplanar] [--threads N]
+//! lar boolean -e NAME=EXPR... INPUT... -o DIR [--format EXT] …
 //! lar render INPUT... -o OUT.png|.svg [--size WxH] [camera] [look]
 //! lar view INPUT... [camera] [look]
-//! lar info INPUT
+//! lar info INPUT [--json PATH|-]
+//! lar measure INPUT... [--density D | NAME=D]... [--json PATH|-] [--as-given | --tolerance LENGTH] [--threads N]
+//! lar validate INPUT [--json PATH|-]
+//! lar clean INPUT -o OUT [--rule outer|nonzero|positive|even-odd] [--json PATH|-] [--keep-fragments] …
+//! lar convert IN OUT [--tolerance T] [--json PATH|-]
+//! lar completions SHELL
+//! lar man [--out DIR]
 //! lar plane INPUT... [--keep-dangling] [--json PATH|-] [--complex PATH] [-o OUT.svg|.png] [--explode S] [--size WxH]
 //!           [--tolerance T] [--threads N]
 //! lar plane --boolean EXPR INPUT... [--fill RULE] [--json PATH|-] [-o OUT.svg|.png] [--explode S] …
@@ -19,29 +26,43 @@
 //! `--alpha`, `--cells all|solid`, `--draw` and `--numbers vertices,edges,faces,cells`, `--color`, `--exterior`, `--clip`,
 //! `--whole-cells`, `--background`; `lar help render` explains them.
 //!
-//! Exit codes: 0 done, 2 bad input or usage, 3 no graphics adapter or display, 130 interrupted. An error is one line on
-//! the error stream, which also shows a bar when it is a terminal and the work takes a while; files are written whole
-//! or not at all, and nothing is computed for an output that cannot be written.
+//! Exit codes: 0 done, 1 `validate` found something wrong, 2 bad input or usage, 3 no graphics adapter or display, 130
+//! interrupted. An error is one line on the error stream, which also shows a bar when it is a terminal and the work
+//! takes a while; files are written whole or not at all, and nothing is computed for an output that cannot be written.
 
 mod arrange;
 mod boolean;
 mod camera;
+mod clean;
+mod convert;
 mod info;
 mod input;
+mod measure;
 mod picture;
 mod plane;
 mod report;
+mod result;
+mod shell;
 mod stats;
+mod validate;
 mod view;
 
 use crate::{CommandError, program};
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;
 use std::io::Write;
 
 /// Arrangements and Booleans of polygonal surfaces and of plane drawings, exactly.
 #[derive(Debug, Parser)]
-#[command(name = "lar", version)]
+#[command(
+    name = "lar",
+    version,
+    after_help = "Exit codes: 0 done, 1 validate found something wrong, 2 bad input or usage, 3 no graphics adapter or \
+                  display, 130 interrupted. Reports (--json) are described in docs/formats.md.\n\n\
+                  Examples:\n  \
+                  lar boolean 'A - B' a.obj b.obj -o out.obj\n  \
+                  lar help boolean"
+)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -54,7 +75,13 @@ enum Command {
     Render(picture::Render),
     View(view::Window),
     Info(info::Info),
+    Measure(measure::Measure),
+    Validate(validate::Validate),
+    Clean(clean::Clean),
+    Convert(convert::Convert),
     Plane(plane::Plane),
+    Completions(shell::Completions),
+    Man(shell::Man),
 }
 
 /// Runs the command: `args` begin with the program's name, results go to `out`, an error is one line on `err`.
@@ -78,6 +105,12 @@ fn dispatch(arguments: Arguments, out: &mut dyn Write) -> Result<(), CommandErro
         Command::Render(render) => render.run(out),
         Command::View(window) => window.run(),
         Command::Info(info) => info.run(out),
+        Command::Measure(measure) => measure.run(out),
+        Command::Validate(validate) => validate.run(out),
+        Command::Clean(clean) => clean.run(out),
+        Command::Convert(convert) => convert.run(out),
+        Command::Completions(completions) => completions.run(Arguments::command(), out),
+        Command::Man(man) => man.run(Arguments::command(), out),
         Command::Plane(plane) => plane.run(out),
     }
 }

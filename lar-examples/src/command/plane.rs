@@ -3,10 +3,10 @@
 use super::boolean::Fill;
 use super::input::{named, split};
 use super::picture::factor;
-use super::report::{Stages, Threads, counted, print_laws};
+use super::report::{Json, Stages, Threads, counted, print_laws};
 use crate::CommandError;
 use crate::checks::boundary_squared_zero;
-use crate::output::{Sink, check_distinct, check_file};
+use crate::output::{check_distinct, check_file};
 use crate::plane::{Boolean, BooleanOptions, Input, Picture, PictureFile, Shapes, Source, arranged};
 use crate::size::Size;
 use lar_arrangement::Expression;
@@ -19,6 +19,10 @@ use std::time::{Duration, Instant};
 
 /// The partition of the plane that drawings generate, or a Boolean expression over their regions.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  \
+                        lar plane plan.svg -o faces.svg --json -\n  \
+                        lar plane cross.seg --keep-dangling -o faces.png --explode 1.3\n  \
+                        lar plane --boolean 'walls - (windows | doors)' apartment.svg -o walls.svg")]
 pub(crate) struct Plane {
     /// SVG drawings (.svg) or segments (.seg: x1 y1 x2 y2 a line, # comments), together one drawing. For names of
     /// regions also NAME=PATH.
@@ -37,9 +41,8 @@ pub(crate) struct Plane {
     /// Keep edges that have the same face on both sides.
     #[arg(long, conflicts_with = "boolean")]
     keep_dangling: bool,
-    /// Write a report as JSON to a file, or with `-` to the standard output.
-    #[arg(long, value_name = "PATH")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    json: Json,
     /// Write the chain complex of the partition as JSON.
     #[arg(long, value_name = "PATH", conflicts_with = "boolean")]
     complex: Option<PathBuf>,
@@ -159,16 +162,15 @@ struct Job {
 impl Plane {
     pub(crate) fn run(&self, out: &mut dyn Write) -> Result<(), CommandError> {
         let start = Instant::now();
-        let sink = self.json.as_deref().map(Sink::from);
-        check_distinct([self.json.as_deref(), self.complex.as_deref(), self.output.as_deref()])?;
-        sink.as_ref().map_or(Ok(()), Sink::check)?;
+        check_distinct([self.json.path(), self.complex.as_deref(), self.output.as_deref()])?;
+        self.json.check()?;
         self.complex.as_deref().map_or(Ok(()), check_file)?;
         let size = [self.size.width, self.size.height];
         let mut file = self.output.as_deref().map(|path| PictureFile::new(path, size)).transpose()?;
         let job = self.read(start)?;
         match &self.boolean {
-            None => self.partition(&job, file.as_mut(), sink.as_ref(), out),
-            Some(text) => self.polygons(text, &job, file.as_mut(), sink.as_ref(), out),
+            None => self.partition(&job, file.as_mut(), out),
+            Some(text) => self.polygons(text, &job, file.as_mut(), out),
         }
     }
 
@@ -185,7 +187,6 @@ impl Plane {
         &self,
         job: &Job,
         file: Option<&mut PictureFile>,
-        sink: Option<&Sink>,
         out: &mut dyn Write,
     ) -> Result<(), CommandError> {
         let before = Instant::now();
@@ -199,7 +200,7 @@ impl Plane {
         if let Some(path) = &self.complex {
             arrangement.complex().write_json(path)?;
         }
-        self.deliver(&report, drawn_by, sink, out)
+        self.deliver("plane", &report, drawn_by, out)
     }
 
     fn partition_report(&self, job: &Job, a: &PlanarArrangement, arrange: Duration) -> PartitionReport {
@@ -229,7 +230,6 @@ impl Plane {
         text: &str,
         job: &Job,
         file: Option<&mut PictureFile>,
-        sink: Option<&Sink>,
         out: &mut dyn Write,
     ) -> Result<(), CommandError> {
         let regions = job.shapes.regions(job.as_wholes)?;
@@ -244,7 +244,7 @@ impl Plane {
         let report = self.boolean_report(text, job, &boolean, &polygons, before.elapsed());
         let picture = || Picture::polygons(&polygons, self.explode);
         let drawn_by = file.map_or(Ok(None), |file| file.write(&picture()))?;
-        self.deliver(&report, drawn_by, sink, out)
+        self.deliver("plane-boolean", &report, drawn_by, out)
     }
 
     fn boolean_report(
@@ -280,19 +280,15 @@ impl Plane {
     /// Writes the report where it was asked for, and prints it unless the standard output has it already.
     fn deliver(
         &self,
+        name: &'static str,
         report: &impl Report,
         drawn_by: Option<String>,
-        sink: Option<&Sink>,
         out: &mut dyn Write,
     ) -> Result<(), CommandError> {
-        if let Some(sink) = sink {
-            sink.write(report, out)?;
-        }
-        if matches!(sink, Some(Sink::Standard)) {
-            return Ok(());
-        }
-        report.print(out)?;
-        self.print_picture(drawn_by, out)
+        self.json.deliver(name, report, out, |out| {
+            report.print(out)?;
+            self.print_picture(drawn_by, out)
+        })
     }
 
     fn print_picture(&self, drawn_by: Option<String>, out: &mut dyn Write) -> Result<(), CommandError> {

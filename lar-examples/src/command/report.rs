@@ -2,12 +2,52 @@
 
 use crate::CommandError;
 use crate::bar::Bar;
+use crate::output::Sink;
 use lar_arrangement::{Arrangement, Arranger, Closure, Merge, Planes, Stats};
 use lar_core::{CellId, Surface};
 use serde::{Serialize, Serializer};
 use std::io::Write;
 use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
+
+/// Where the report of a command goes.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Json {
+    /// Write a report as JSON to a file, or with `-` to the standard output; docs/formats.md has its fields.
+    #[arg(long = "json", value_name = "PATH")]
+    json: Option<PathBuf>,
+}
+
+impl Json {
+    pub(crate) fn path(&self) -> Option<&Path> {
+        self.json.as_deref()
+    }
+
+    fn sink(&self) -> Option<Sink> {
+        self.path().map(Sink::from)
+    }
+
+    /// Refuses a place that cannot be written.
+    pub(crate) fn check(&self) -> Result<(), CommandError> {
+        self.sink().as_ref().map_or(Ok(()), Sink::check)
+    }
+
+    /// Writes the report where it was asked for, and prints unless the standard output has the report.
+    pub(crate) fn deliver(
+        &self,
+        name: &'static str,
+        report: &impl Serialize,
+        out: &mut dyn Write,
+        print: impl FnOnce(&mut dyn Write) -> Result<(), CommandError>,
+    ) -> Result<(), CommandError> {
+        let sink = self.sink();
+        if let Some(sink) = &sink {
+            sink.write(name, report, out)?;
+        }
+        if matches!(sink, Some(Sink::Standard)) { Ok(()) } else { print(out) }
+    }
+}
 
 /// How many threads a command uses.
 #[derive(Clone, Copy, Debug, clap::Args)]
@@ -118,7 +158,7 @@ pub(crate) struct Operand {
 impl Operand {
     pub(crate) fn all(arrangement: &Arrangement, operands: &super::input::Operands) -> Vec<Self> {
         let volumes = arrangement.volumes();
-        let one = |(solid, (surface, file)): (usize, (&Surface, &std::path::PathBuf))| {
+        let one = |(solid, (surface, file)): (usize, (&Surface, &PathBuf))| {
             let windings = || (0..).map(CellId).take(volumes.len()).map(|c| arrangement.winding(c, solid));
             Self {
                 name: surface.name.clone(),
@@ -138,6 +178,13 @@ impl Operand {
             }
         };
         operands.surfaces.iter().zip(&operands.files).enumerate().map(one).collect()
+    }
+
+    /// A line about the operand.
+    pub(crate) fn facts(&self) -> String {
+        let [lo, hi] = self.windings;
+        let faces = counted(self.faces, "face");
+        format!("{}: {faces}, {}, winding numbers {lo} to {hi}", self.file, self.closure)
     }
 
     /// What a reader should know of an operand that is not a proper solid.

@@ -8,11 +8,11 @@ use super::viewpoint::best_eye;
 use crate::shapes::{self, Shapes};
 use crate::{CommandError, scenes, tables};
 use lar_arrangement::{Arrangement, arrange};
+use lar_core::Model;
 use lar_core::mapper::{
     Ball, Circle, Crown, Cylinder, Disk, Helicoid, Helix, HollowBall, HollowCylinder, Pizza, Ring, Rod,
     Sphere, Toroidal, Torus, cuboid,
 };
-use lar_core::{CellId, Model};
 use lar_viewer::{CellShape, Coloring};
 use std::fmt::Write;
 
@@ -36,12 +36,11 @@ pub(super) fn five_cubes(seed: u64) -> Result<Arrangement, CommandError> {
 pub(super) fn cells(request: &Request) -> Result<Drawn, CommandError> {
     let arrangement = five_cubes(request.seed.unwrap_or(SEED))?;
     let shapes = Shapes::new(&arrangement)?;
-    let cells = (1..).map(CellId).take(arrangement.n_cells().saturating_sub(1));
-    let cells: Vec<CellShape> = cells.map(|c| shapes.cell(c)).collect::<Result<_, _>>()?;
+    let cells = shapes.bounded_cells()?;
     let columns = columns(cells.len());
     let panel = |(i, shape): (usize, CellShape)| {
-        let eye = best_eye(&shape.mesh);
-        Panel::new(Part::of_cell(shape, Coloring::Cyclic.color(i), 1.0)).from(eye)
+        let (eye, name) = (best_eye(&shape.mesh), shape.name.clone());
+        Panel::new(Part::of_cell(shape, Coloring::Cyclic.color(i), 1.0)).from(eye).called(name)
     };
     let panels = cells.into_iter().enumerate().map(panel).collect();
     let title = "3-cells of the arrangement of five random cubes";
@@ -95,7 +94,8 @@ pub(super) fn mapper(request: &Request) -> Result<Drawn, CommandError> {
         writeln!(numbers, "{name:<12}{}", counts.join(", ")).expect("a string takes all text");
     }
     let panel = |(i, (name, model)): (usize, &(&str, Model))| {
-        Ok(Panel::new(mapper_parts(name, model, i)?).from(Eye { azimuth: -1.05, elevation: 0.6 }))
+        let panel = Panel::new(mapper_parts(name, model, i)?).called(*name);
+        Ok(panel.from(Eye { azimuth: -1.05, elevation: 0.6 }))
     };
     let panels = shapes.iter().enumerate().map(panel).collect::<Result<_, CommandError>>()?;
     let figure =

@@ -73,7 +73,7 @@ pub fn panels(
             FACES_EXPLODE,
             EXPLODED_AZIMUTH,
         ),
-        figure('d', "3-cells, exploded", three_cells(arrangement, &shapes)?, CELLS_EXPLODE, EXPLODED_AZIMUTH),
+        figure('d', "3-cells, exploded", three_cells(&shapes)?, CELLS_EXPLODE, EXPLODED_AZIMUTH),
     ])
 }
 
@@ -107,11 +107,9 @@ fn cycles(faces: &[CellShape]) -> Result<Scene, CommandError> {
 }
 
 /// The bounded cells in cyclic colours, the exterior as a white shell in its place, and the axes.
-fn three_cells(arrangement: &Arrangement, shapes: &Shapes<'_>) -> Result<Scene, CommandError> {
+fn three_cells(shapes: &Shapes<'_>) -> Result<Scene, CommandError> {
     let mut scene = Scene::new();
-    let bounded = (1..).map(CellId).take(arrangement.n_cells().saturating_sub(1));
-    let cells = bounded.map(|c| shapes.cell(c)).collect::<Result<Vec<_>, _>>()?;
-    push_cells(&mut scene, cells, &CellStyle { opacity: 0.5, ..CellStyle::default() })?;
+    push_cells(&mut scene, shapes.bounded_cells()?, &CellStyle { opacity: 0.5, ..CellStyle::default() })?;
     let shell = shapes.cell(CellId(0))?;
     let cell = shell.cell;
     scene.push(Drawable::mesh("exterior", shell.mesh).color(WHITE).opacity(0.4).cell(cell))?;

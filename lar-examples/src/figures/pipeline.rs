@@ -3,12 +3,12 @@
 use super::collection::{Drawn, Request};
 use super::gallery::counts;
 use super::parts::{Part, Point, Segment, cyclic, exploded, moved, plain};
-use super::sheet::{ABOVE, Eye, Panel, Sheet};
+use super::sheet::{ABOVE, Eye, Panel, Sheet, lettered};
 use crate::shapes::{self, Shapes};
 use crate::{CommandError, scenes};
 use lar_arrangement::planar::{Dangling, Drawing, PlanarArrangement, PlanarArranger};
 use lar_arrangement::{Arrangement, arrange};
-use lar_core::{CellId, Surface};
+use lar_core::Surface;
 use lar_viewer::{Bounds, CellShape, Coloring, INK, Rgb, palette_color};
 
 /// The second cube is turned so that the chosen face meets several of its faces.
@@ -38,8 +38,8 @@ pub(super) fn figure3(request: &Request) -> Result<Drawn, CommandError> {
     let planar = PlanarArranger::new().dangling(Dangling::Keep).arrange(&local.drawing())?;
     let [a, b] = solids(&surfaces)?;
     let [g, h] = exploded_cells(&arrangement)?;
-    let panels =
-        vec![a, b, local.candidates(), local.flattened(), local.segments(), crossings(&planar), g, h];
+    let [c, d, e] = [local.candidates(), local.flattened(), local.segments()];
+    let panels = lettered([a, b, c, d, e, crossings(&planar), g, h]);
     let title = "the pipeline, from two solids to the cells of their arrangement";
     let figure = Sheet { panels, columns: 4 }.figure("figure3", title, 300, request.size)?;
     let [vertices, edges] = [planar.n_vertices(), planar.n_edges()];
@@ -63,8 +63,7 @@ fn solids(surfaces: &[Surface]) -> Result<[Panel; 2], CommandError> {
 /// Panels g and h: the faces and the cells of the arrangement, exploded.
 fn exploded_cells(arrangement: &Arrangement) -> Result<[Panel; 2], CommandError> {
     let shapes = Shapes::new(arrangement)?;
-    let cells = (1..).map(CellId).take(arrangement.n_cells().saturating_sub(1));
-    let cells = cells.map(|c| shapes.cell(c)).collect::<Result<Vec<_>, _>>()?;
+    let cells = shapes.bounded_cells()?;
     let faces = Panel::new(cyclic(exploded(shapes.faces()?, [1.7; 3]), 1.0)).from(EYE);
     Ok([faces, Panel::new(cyclic(exploded(cells, [2.4; 3]), 0.75)).from(EYE)])
 }

@@ -2,7 +2,7 @@
 
 use super::collection::{Drawn, Request};
 use super::gallery::exploded;
-use super::sheet::{ABOVE, Panel, Sheet};
+use super::sheet::{ABOVE, Panel, Sheet, lettered};
 use crate::CommandError;
 use crate::scenes::SceneError;
 use lar_core::mapper::{Circle, Disk};
@@ -13,14 +13,15 @@ use std::fmt::Write;
 pub(super) fn products(request: &Request) -> Result<Drawn, CommandError> {
     let mut numbers = String::new();
     let mut panels = Vec::new();
-    for (name, model, factor) in &models()? {
+    for (letter, (name, model, factor)) in ('a'..).zip(&models()?) {
         let counts: Vec<String> = model.f_vector().iter().map(usize::to_string).collect();
-        writeln!(numbers, "{name:<38}{}", counts.join(", ")).expect("a string takes all text");
+        writeln!(numbers, "({letter}) {name:<38}{}", counts.join(", ")).expect("a string takes all text");
         let panel = Panel::new(exploded(model, *factor, 1.0)?);
         panels.push(if model.points().dim() == 2 { panel.from(ABOVE) } else { panel });
     }
     let title = "Cartesian products of complexes, exploded";
-    let figure = Sheet { panels, columns: 3 }.figure("products", title, 300, request.size)?;
+    let figure =
+        Sheet { panels: lettered(panels), columns: 3 }.figure("products", title, 300, request.size)?;
     Ok(Drawn { numbers, figures: vec![figure] })
 }
 

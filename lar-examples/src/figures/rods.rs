@@ -3,11 +3,10 @@
 use super::collection::{Drawn, Request};
 use super::gallery::counts;
 use super::parts::{Part, cyclic, exploded};
-use super::sheet::{Panel, Sheet};
+use super::sheet::{Panel, Sheet, lettered};
 use crate::shapes::{self, Shapes};
 use crate::{CommandError, scenes};
 use lar_arrangement::{Arrangement, Detail, Expression, FillRule, Solid, arrange};
-use lar_core::CellId;
 use lar_viewer::Coloring;
 use std::fmt::Write;
 
@@ -28,27 +27,34 @@ pub(super) fn rods(request: &Request) -> Result<Drawn, CommandError> {
     let inputs = (0..).zip(&surfaces).map(|(i, s)| shapes::surface(s, i)).collect::<Result<Vec<_>, _>>()?;
     let mut panels = vec![Panel::new(cyclic(inputs, 1.0)), Panel::new(cells(&arrangement)?)];
     let mut numbers = counts(&arrangement);
-    for (i, (name, text)) in EXPRESSIONS.into_iter().enumerate() {
+    for ((i, letter), (name, text)) in (3..).zip('c'..).zip(EXPRESSIONS) {
         let solid = arrangement.boolean(&Expression::parse(text, &["A", "B", "C"])?, FillRule::NonZero)?;
-        writeln!(numbers, "{name:<17}{text:<23}volume {:.6}, area {:.6}", solid.volume(), solid.area())
-            .expect("a string takes all text");
+        writeln!(
+            numbers,
+            "({letter}) {name:<17}{text:<23}volume {:.6}, area {:.6}",
+            solid.volume(),
+            solid.area()
+        )
+        .expect("a string takes all text");
         panels.push(Panel::new(boolean(name, &solid, i)?));
     }
-    let figure =
-        Sheet { panels, columns: 3 }.figure("rods", "three rods and their Booleans", 320, request.size)?;
+    let figure = Sheet { panels: lettered(panels), columns: 3 }.figure(
+        "rods",
+        "three rods and their Booleans",
+        320,
+        request.size,
+    )?;
     Ok(Drawn { numbers, figures: vec![figure] })
 }
 
 fn cells(arrangement: &Arrangement) -> Result<Vec<Part>, CommandError> {
     let shapes = Shapes::new(arrangement)?;
-    let cells = (1..).map(CellId).take(arrangement.n_cells().saturating_sub(1));
-    let cells = cells.map(|c| shapes.cell(c)).collect::<Result<Vec<_>, _>>()?;
-    Ok(cyclic(exploded(cells, [1.7; 3]), 1.0))
+    Ok(cyclic(exploded(shapes.bounded_cells()?, [1.7; 3]), 1.0))
 }
 
 fn boolean(name: &str, solid: &Solid<'_>, i: usize) -> Result<[Part; 2], CommandError> {
     let result = solid.to_complex(Detail::Simplified);
-    Ok(Part::of_cell(shapes::complex_whole(name, &result.complex)?, Coloring::Cyclic.color(i + 3), 1.0))
+    Ok(Part::of_cell(shapes::complex_whole(name, &result.complex)?, Coloring::Cyclic.color(i), 1.0))
 }
 
 #[cfg(test)]

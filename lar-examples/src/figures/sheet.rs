@@ -4,11 +4,22 @@
 use super::Figure;
 use super::parts::{Part, Point};
 use crate::CommandError;
-use lar_viewer::{Camera, Orientation, Projection, Scene, StandardView, View, WHITE};
+use lar_viewer::{
+    Camera, Drawable, Label, Orientation, Projection, Scene, StandardView, TextStyle, View, WHITE,
+};
 use std::f64::consts::FRAC_PI_2;
 
 /// Part of a panel's side that what it shows may take.
-const FILL: f64 = 0.86;
+const FILL: f64 = 0.84;
+
+/// Part of the side by which what has a caption is raised, and smaller.
+const RAISED: f64 = 0.04;
+
+/// Where the caption stands, above the lower edge, in parts of the side.
+const CAPTION: f64 = 0.075;
+
+/// Height of the capitals of captions in pixels.
+const CAPITALS: f64 = 10.5;
 
 /// Side of a panel in pixels for which the widths of lines are chosen.
 const DESIGN_SIDE: f64 = 260.0;
@@ -50,6 +61,8 @@ pub(crate) struct Panel {
     pub eye: Eye,
     /// Points that must find room besides those of the parts: panels with the same ones have the same scale.
     pub frame: Vec<Point>,
+    /// What stands below it.
+    pub caption: String,
 }
 
 impl Panel {
@@ -65,6 +78,10 @@ impl Panel {
         Self { frame, ..self }
     }
 
+    pub(crate) fn called(self, caption: impl Into<String>) -> Self {
+        Self { caption: caption.into(), ..self }
+    }
+
     /// The parts turned so that the eye looks along y with z up, and fitted into the square of side 1 about `center`.
     fn placed(self, center: [f64; 2]) -> Vec<Part> {
         let [right, up, back] = self.eye.camera().axes();
@@ -73,17 +90,23 @@ impl Panel {
         let Some(bounds) = lar_viewer::Bounds::of(points.map(turn)) else { return Vec::new() };
         let middle = bounds.center();
         let extent = (bounds.max[0] - bounds.min[0]).max(bounds.max[2] - bounds.min[2]);
-        let scale = if 0.0 < extent { FILL / extent } else { 1.0 };
+        let raised = if self.caption.is_empty() { 0.0 } else { RAISED };
+        let scale = if 0.0 < extent { (FILL - 2.0 * raised) / extent } else { 1.0 };
         let place = |p: Point| {
             let p = turn(p);
             [
                 center[0] + scale * (p[0] - middle[0]),
                 scale * (p[1] - middle[1]),
-                center[1] + scale * (p[2] - middle[2]),
+                center[1] + raised + scale * (p[2] - middle[2]),
             ]
         };
         self.parts.into_iter().map(|part| part.mapped(place)).collect()
     }
+}
+
+/// Panels called (a), (b), (c), … in their order.
+pub(crate) fn lettered(panels: impl IntoIterator<Item = Panel>) -> Vec<Panel> {
+    ('a'..='z').zip(panels).map(|(letter, panel)| panel.called(format!("({letter})"))).collect()
 }
 
 /// Panels row by row from the top left.
@@ -106,10 +129,15 @@ impl Sheet {
         let rows = self.panels.len().div_ceil(columns).max(1);
         let size = size.unwrap_or([columns as u32 * side, rows as u32 * side]);
         let mut scene = Scene::new();
+        let mut captions = Vec::new();
         for (i, panel) in self.panels.into_iter().enumerate() {
             let center = [(i % columns) as f64 + 0.5, (rows - i / columns) as f64 - 0.5];
+            captions.push(Label::new(panel.caption.as_str(), [center[0], 0.0, center[1] - 0.5 + CAPTION]));
             panel.placed(center).into_iter().try_for_each(|part| scene.push(part.drawable()))?;
         }
+        captions.retain(|caption| !caption.text.is_empty());
+        let style = TextStyle { size: CAPITALS, ..TextStyle::default() };
+        scene.push(Drawable::labels("captions", captions).text_style(style).on_top())?;
         let view = view([columns, rows], size);
         Ok(Figure { name: name.to_owned(), title, scene, view, size, svg: None })
     }

@@ -4,7 +4,7 @@
 use super::collection::{Drawn, Request};
 use super::gallery::{counts, five_cubes};
 use super::parts::{Part, Point, Segment, plain};
-use super::sheet::{Panel, Sheet};
+use super::sheet::{Panel, Sheet, lettered};
 use super::viewpoint::best_eye;
 use crate::CommandError;
 use crate::shapes::Shapes;
@@ -96,7 +96,7 @@ fn panels(arrangement: &Arrangement, wrapping: &Wrapping) -> Result<Vec<Panel>, 
             panels.push(Panel::new(grown).from(eye).framed(frame.clone()));
         }
     }
-    Ok(panels)
+    Ok(lettered(panels))
 }
 
 /// The faces around the edges of the chain's boundary that are not in the chain.

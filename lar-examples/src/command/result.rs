@@ -1,0 +1,103 @@
+//! The surface of a solid as polygons and as triangles, its numbers and its file.
+
+use super::input::is_json;
+use super::report::counted;
+use crate::CommandError;
+use lar_arrangement::{Detail, Solid, SolidComplex};
+use lar_core::{FaceId, MeshFormat, TriangleMesh, write_mesh};
+use serde::Serialize;
+use std::io::Write;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// A result in both forms, and how long it took to make them.
+pub(crate) struct Surfaces {
+    pub polygons: SolidComplex,
+    pub triangles: TriangleMesh,
+    /// Choice of the cells, and their surface as a complex.
+    pub boolean: Duration,
+    pub triangulate: Duration,
+}
+
+impl Surfaces {
+    /// The surface of a solid that was being chosen since `before`.
+    pub(crate) fn new(solid: &Solid<'_>, detail: Detail, before: Instant) -> Result<Self, CommandError> {
+        let polygons = solid.to_complex(detail);
+        let boolean = before.elapsed();
+        let before = Instant::now();
+        let faces = (0..).map(|f| (FaceId(f), 1)).take(polygons.n_faces());
+        let triangles =
+            lar_triangle::triangulate(&polygons.complex)?.mesh_of_faces(polygons.complex.points(), faces)?;
+        Ok(Self { polygons, triangles, boolean, triangulate: before.elapsed() })
+    }
+
+    /// Polygons as a chain complex when the name ends in `.json`, else triangles in the format of the extension, OBJ
+    /// when it names none.
+    pub(crate) fn write(&self, path: &Path) -> Result<(), CommandError> {
+        if is_json(path) {
+            self.polygons.complex.write_json(path)?;
+        } else if MeshFormat::of_path(path).is_some() {
+            write_mesh(path, &self.triangles)?;
+        } else {
+            self.triangles.write_obj(path)?;
+        }
+        Ok(())
+    }
+}
+
+/// The numbers of a result. The counts are those of its polygons, but for `triangles`.
+#[derive(Debug, Serialize)]
+pub(crate) struct Counts {
+    vertices: usize,
+    edges: usize,
+    faces: usize,
+    triangles: usize,
+    components: usize,
+    loops: usize,
+    /// `null` when the result is unbounded.
+    volume: Option<f64>,
+    area: f64,
+    /// Each edge is used as often in one direction as in the other.
+    closed: bool,
+    bounded: bool,
+    /// V − E + Σ over faces of (2 − loops).
+    euler: i64,
+    /// The cells of the arrangement that make up the result.
+    cells: Vec<u32>,
+}
+
+impl Counts {
+    pub(crate) fn new(solid: &Solid<'_>, surfaces: &Surfaces) -> Self {
+        let polygons = &surfaces.polygons;
+        Self {
+            vertices: polygons.complex.n_cells(0),
+            edges: polygons.complex.n_cells(1),
+            faces: polygons.n_faces(),
+            triangles: surfaces.triangles.triangles.len(),
+            components: polygons.n_components(),
+            loops: polygons.n_loops(),
+            volume: solid.is_bounded().then(|| solid.volume()),
+            area: solid.area(),
+            closed: polygons.is_closed() && surfaces.triangles.is_closed(),
+            bounded: solid.is_bounded(),
+            euler: polygons.euler(),
+            cells: solid.cells().iter().map(|c| c.0).collect(),
+        }
+    }
+
+    /// Two lines, the first after `what` and a colon.
+    pub(crate) fn print(&self, what: &str, out: &mut dyn Write) -> Result<(), CommandError> {
+        let counts = [
+            counted(self.vertices, "vertex"),
+            counted(self.edges, "edge"),
+            counted(self.faces, "face"),
+            counted(self.triangles, "triangle"),
+            counted(self.components, "component"),
+        ];
+        writeln!(out, "{what}: {}", counts.join(", "))?;
+        let volume = self.volume.map_or("unbounded".to_owned(), |v| format!("volume {v}"));
+        let closed = if self.closed { "closed" } else { "NOT CLOSED" };
+        writeln!(out, "{volume}, area {}, {closed}, Euler characteristic {}", self.area, self.euler)?;
+        Ok(())
+    }
+}
