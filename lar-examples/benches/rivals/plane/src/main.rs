@@ -48,7 +48,7 @@ fn read(file: &str) -> Result<Vec<[f64; 4]>, Box<dyn Error>> {
 fn run(engine: &str, segments: &[[f64; 4]]) -> Result<(), Box<dyn Error>> {
     let engine = engines::named(engine).ok_or("no such engine")?;
     // The program itself is in memory before anything is measured.
-    engine(&[[0.0, 0.0, 1.0, 1.0], [0.0, 1.0, 1.0, 0.0], [0.5, 0.0, 0.6, 1.0]])?;
+    drop(engine(&[[0.0, 0.0, 1.0, 1.0], [0.0, 1.0, 1.0, 0.0], [0.5, 0.0, 0.6, 1.0]])?);
     let (count, Cost { cpu, wall, memory }) = measure(Duration::ZERO, || engine(segments))?;
     let [v, e, f, c] = count().map(|n| n.map_or("null".to_owned(), |n| n.to_string()));
     println!(r#"{{"cpu": {cpu}, "wall": {wall}, "memory": {memory}, "counts": [{v}, {e}, {f}, {c}]}}"#);
