@@ -1,10 +1,11 @@
 //! The result: a chain complex with everything that is known of its cells.
 
+use crate::grid::Grid;
 use crate::kernel::{Geometry, Vertex, VertexDef};
 use crate::soup::Parent;
 use crate::stats::Stats;
 use crate::winding::{Closure, Windings};
-use lar_core::{CellId, Cells, ChainComplex, EdgeId, FaceId, Operator, VertexId};
+use lar_core::{CellId, Cells, ChainComplex, EdgeId, ExactPoints, FaceId, Operator, VertexId};
 use sprs::CsMatI;
 
 /// The partition of space that some surfaces generate.
@@ -36,6 +37,7 @@ pub struct Arrangement {
     pub(crate) solids: Vec<SolidInfo>,
     pub(crate) vertices: Vec<Vertex>,
     pub(crate) geometry: Geometry,
+    pub(crate) grid: Grid,
     /// How far, in grid steps, corners may lie from the plane of their face.
     pub(crate) bend: f64,
     pub(crate) stats: Stats,
@@ -151,6 +153,31 @@ impl Arrangement {
             VertexDef::EdgePlane { .. } => VertexKind::EdgeCrossing,
             VertexDef::Facets(_) => VertexKind::PlaneCrossing,
         }
+    }
+
+    /// The exact positions of the vertices, of which those of [`complex`](Self::complex) are the correctly rounded ones.
+    ///
+    /// ```
+    /// let simplex = lar_core::simplex(3).to_surface("simplex")?;
+    /// let exact = lar_arrangement::arrange(&[simplex])?.exact_points();
+    /// assert_eq!(exact.points[1][3], "1");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn exact_points(&self) -> ExactPoints {
+        ExactPoints {
+            step: self.grid.step(),
+            origin: self.grid.origin(),
+            points: self.vertices.iter().map(|v| self.geometry.homogeneous_point(v)).collect(),
+        }
+    }
+
+    /// The unit normal of a face's exact plane, rounded.
+    #[must_use]
+    pub fn normal(&self, face: FaceId) -> [f64; 3] {
+        let normal = self.geometry.normal(self.facet_of_face[face.index()]);
+        let length = normal.iter().fold(0.0, |length: f64, x| length.hypot(*x));
+        normal.map(|x| x / length)
     }
 
     /// The ends of an edge, the smaller first.

@@ -54,6 +54,11 @@ impl Grid {
         scaled(1.0, self.exponent)
     }
 
+    /// The point of the input's space that has the coordinates 0 on the grid.
+    pub(crate) fn origin(&self) -> [f64; 3] {
+        self.origin
+    }
+
     /// Exponent of the step.
     pub(crate) fn exponent(&self) -> i32 {
         self.exponent

@@ -464,6 +464,7 @@ fn assemble(
         vertices,
         bend: soup.bend,
         geometry: soup.geometry,
+        grid: soup.grid,
         stats,
     })
 }

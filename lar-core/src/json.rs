@@ -9,6 +9,12 @@
 //! `space` is the number of coordinates of a point; `boundaries[p − 1]` is ∂p, each column the list of its
 //! entries [row, sign] in rising order of rows. Numbers are written in the shortest form that reads back as
 //! the same `f64`, and one complex always gives the same bytes.
+//!
+//! Version 2 has the exact positions of the points as well, as [`ExactPoints`]:
+//!
+//! ```text
+//!  "exact": {"step": 9.094947017729282e-13, "origin": [0.0, 0.0, 0.0], "points": [["X", "Y", "Z", "W"], …]}
+//! ```
 
 use crate::atomic_write::{FileError, atomic_write, read};
 use crate::complex::sign_columns;
@@ -19,6 +25,20 @@ use std::path::{Path, PathBuf};
 
 const FORMAT: &str = "lar-chain-complex";
 const VERSION: u64 = 1;
+/// With exact points.
+const EXACT_VERSION: u64 = 2;
+
+/// Rational points on a grid: point i is origin + step · (X, Y, Z) / W for `points[i]` = [X, Y, Z, W].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ExactPoints {
+    /// Distance of neighbouring grid points, a power of two.
+    pub step: f64,
+    /// The grid point with the coordinates 0.
+    pub origin: [f64; 3],
+    /// Homogeneous coordinates X, Y, Z, W of each point, integers in decimal digits of any length; W is positive.
+    pub points: Vec<[String; 4]>,
+}
 
 /// Why a text is no chain complex, or a complex cannot be written.
 #[derive(Debug, thiserror::Error)]
@@ -34,7 +54,7 @@ pub enum JsonError {
         found: String,
     },
     /// The version is not one that can be read.
-    #[error("version {found} cannot be read, only version 1")]
+    #[error("version {found} cannot be read, only versions 1 and 2")]
     Version {
         /// The version found.
         found: u64,
@@ -100,6 +120,30 @@ pub enum JsonError {
         /// Which operator.
         p: usize,
     },
+    /// The exact points are not as many as the points.
+    #[error("{found} exact points for {expected} points")]
+    ExactCount {
+        /// The number of points.
+        expected: usize,
+        /// The exact ones.
+        found: usize,
+    },
+    /// An exact point is no homogeneous point of integers.
+    #[error("exact point {vertex}: {found:?} where {} is needed", if *.denominator { "a positive integer" } else { "an integer" })]
+    Exact {
+        /// The point.
+        vertex: VertexId,
+        /// What is found instead.
+        found: String,
+        /// Whether it is the denominator.
+        denominator: bool,
+    },
+    /// Version 2 is version 1 with exact points.
+    #[error("exact points belong to version 2, and to no other; this is version {found}")]
+    ExactVersion {
+        /// The version found.
+        found: u64,
+    },
     /// The file could not be read or written.
     #[error(transparent)]
     File(#[from] FileError),
@@ -128,6 +172,8 @@ struct File {
     space: usize,
     points: Vec<Vec<f64>>,
     boundaries: Vec<Boundary>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    exact: Option<ExactPoints>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -151,17 +197,41 @@ impl ChainComplex {
     /// # Ok::<(), lar_core::JsonError>(())
     /// ```
     pub fn to_json(&self) -> Result<String, JsonError> {
+        self.written(None)
+    }
+
+    /// The complex as JSON of version 2, with the exact positions of its points. O(size).
+    ///
+    /// # Errors
+    /// As [`to_json`](Self::to_json), and when the exact points are not as many as the points or no such points.
+    ///
+    /// ```
+    /// use lar_core::{ChainComplex, ExactPoints, cuboid_grid};
+    /// let segment = ChainComplex::from_model(&cuboid_grid(&[1]).embedded(3)?)?;
+    /// let third = ["1", "0", "0", "3"].map(String::from);
+    /// let exact = ExactPoints { step: 1.0, origin: [0.0; 3], points: vec![third.clone(), third] };
+    /// let json = segment.to_json_exact(exact.clone())?;
+    /// assert_eq!(ChainComplex::from_json_exact(&json)?, (segment, Some(exact)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn to_json_exact(&self, exact: ExactPoints) -> Result<String, JsonError> {
+        check_exact(&exact, self.points().len())?;
+        self.written(Some(exact))
+    }
+
+    fn written(&self, exact: Option<ExactPoints>) -> Result<String, JsonError> {
         let violations = self.validate();
         if !violations.is_empty() {
             return Err(JsonError::Invalid(violations));
         }
         let file = File {
             format: FORMAT.to_owned(),
-            version: VERSION,
+            version: if exact.is_some() { EXACT_VERSION } else { VERSION },
             dim: self.dim(),
             space: self.points().dim(),
             points: self.points().iter().map(<[f64]>::to_vec).collect(),
             boundaries: (1..=self.dim()).map(|p| columns(self.boundary(p))).collect(),
+            exact,
         };
         Ok(serde_json::to_string(&file)?)
     }
@@ -172,6 +242,14 @@ impl ChainComplex {
     /// When the text is malformed, of another format or version, or the complex breaks a law of
     /// [`validate`](Self::validate).
     pub fn from_json(text: &str) -> Result<Self, JsonError> {
+        Ok(parse(text.as_bytes())?.0)
+    }
+
+    /// A complex from its JSON, and the exact positions of its points when it has them (version 2). O(size · log).
+    ///
+    /// # Errors
+    /// As [`from_json`](Self::from_json).
+    pub fn from_json_exact(text: &str) -> Result<(Self, Option<ExactPoints>), JsonError> {
         parse(text.as_bytes())
     }
 
@@ -180,12 +258,15 @@ impl ChainComplex {
     /// # Errors
     /// As [`to_json`](Self::to_json), and when the file cannot be written.
     pub fn write_json(&self, path: impl AsRef<Path>) -> Result<(), JsonError> {
-        let text = self.to_json()?;
-        atomic_write(path, |file| {
-            file.write_all(text.as_bytes())?;
-            file.write_all(b"\n")
-        })?;
-        Ok(())
+        write(path.as_ref(), &self.to_json()?)
+    }
+
+    /// Writes the complex with exact positions as JSON of version 2 to a file, whole or not at all.
+    ///
+    /// # Errors
+    /// As [`to_json_exact`](Self::to_json_exact), and when the file cannot be written.
+    pub fn write_json_exact(&self, path: impl AsRef<Path>, exact: ExactPoints) -> Result<(), JsonError> {
+        write(path.as_ref(), &self.to_json_exact(exact)?)
     }
 
     /// Reads a complex from a JSON file.
@@ -195,21 +276,53 @@ impl ChainComplex {
     pub fn read_json(path: impl AsRef<Path>) -> Result<Self, JsonError> {
         let path = path.as_ref();
         parse(&read(path)?)
+            .map(|(complex, _)| complex)
             .map_err(|source| JsonError::In { path: path.to_owned(), source: Box::new(source) })
     }
 }
 
-fn parse(text: &[u8]) -> Result<ChainComplex, JsonError> {
-    let header: Header = serde_json::from_slice(text)?;
-    if header.format != FORMAT {
-        return Err(JsonError::Format { found: header.format });
+fn write(path: &Path, text: &str) -> Result<(), JsonError> {
+    atomic_write(path, |file| {
+        file.write_all(text.as_bytes())?;
+        file.write_all(b"\n")
+    })?;
+    Ok(())
+}
+
+fn parse(text: &[u8]) -> Result<(ChainComplex, Option<ExactPoints>), JsonError> {
+    let Header { format, version } = serde_json::from_slice(text)?;
+    if format != FORMAT {
+        return Err(JsonError::Format { found: format });
     }
-    if header.version != VERSION {
-        return Err(JsonError::Version { found: header.version });
+    if ![VERSION, EXACT_VERSION].contains(&version) {
+        return Err(JsonError::Version { found: version });
     }
-    let complex = from_file(serde_json::from_slice(text)?)?;
+    let mut file: File = serde_json::from_slice(text)?;
+    let exact = file.exact.take();
+    if exact.is_some() != (version == EXACT_VERSION) {
+        return Err(JsonError::ExactVersion { found: version });
+    }
+    exact.as_ref().map_or(Ok(()), |exact| check_exact(exact, file.points.len()))?;
+    let complex = from_file(file)?;
     let violations = complex.validate();
-    if violations.is_empty() { Ok(complex) } else { Err(JsonError::Invalid(violations)) }
+    if violations.is_empty() { Ok((complex, exact)) } else { Err(JsonError::Invalid(violations)) }
+}
+
+fn check_exact(exact: &ExactPoints, n_points: usize) -> Result<(), JsonError> {
+    if exact.points.len() != n_points {
+        return Err(JsonError::ExactCount { expected: n_points, found: exact.points.len() });
+    }
+    let is_number = |digits: &str| !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit());
+    for (point, vertex) in exact.points.iter().zip(0..) {
+        for (text, denominator) in point.iter().zip([false, false, false, true]) {
+            let digits = if denominator { text } else { text.strip_prefix('-').unwrap_or(text) };
+            if !is_number(digits) || (denominator && digits.bytes().all(|b| b == b'0')) {
+                let (vertex, found) = (VertexId(vertex), text.clone());
+                return Err(JsonError::Exact { vertex, found, denominator });
+            }
+        }
+    }
+    Ok(())
 }
 
 fn columns(operator: &Operator) -> Boundary {
@@ -288,7 +401,8 @@ mod tests {
     #[test]
     fn refusals() {
         check("lar-chain-complex", "obj", "format is \"obj\", not \"lar-chain-complex\"");
-        check("\"version\":1", "\"version\":2", "version 2 cannot be read, only version 1");
+        check("\"version\":1", "\"version\":3", "version 3 cannot be read, only versions 1 and 2");
+        check("\"version\":1", "\"version\":2", "exact points belong to version 2");
         check("\"version\":1,", "", "missing field `version`");
         check("\"dim\":2", "\"dim\":3", "dim is 3, but there are 2 boundary operators");
         check("\"space\":2", "\"space\":3", "point v0 has 2 coordinates, not 3");
@@ -303,6 +417,33 @@ mod tests {
         check("0.0", "NaN", "expected value");
         check("\"dim\"", "\"size\":1,\"dim\"", "unknown field `size`");
         check("]}]}", "", "EOF");
+    }
+
+    #[test]
+    fn exact_points() {
+        let segment = ChainComplex::from_model(&cuboid_grid(&[1])).unwrap();
+        let point = |x: &str, w: &str| [x, "-12345678901234567890123", "0", w].map(String::from);
+        let of = |points| ExactPoints { step: 0.5, origin: [1.0, -2.0, 1e300], points };
+        let exact = of(vec![point("-7", "3"), point("0", "1")]);
+        let json = segment.to_json_exact(exact.clone()).unwrap();
+        assert!(json.contains("\"version\":2"));
+        assert_eq!(ChainComplex::from_json(&json).unwrap(), segment);
+        assert_eq!(ChainComplex::from_json_exact(&json).unwrap(), (segment.clone(), Some(exact)));
+        let plain = segment.to_json().unwrap();
+        assert_eq!(ChainComplex::from_json_exact(&plain).unwrap(), (segment.clone(), None));
+        let refused = |points| segment.to_json_exact(of(points)).unwrap_err().to_string();
+        assert_eq!(refused(vec![point("1", "1")]), "1 exact points for 2 points");
+        for (x, w, message) in [
+            ("1.5", "1", "exact point v1: \"1.5\" where an integer is needed"),
+            ("-", "1", "exact point v1: \"-\" where an integer is needed"),
+            ("1", "00", "exact point v1: \"00\" where a positive integer is needed"),
+            ("1", "-1", "exact point v1: \"-1\" where a positive integer is needed"),
+        ] {
+            assert_eq!(refused(vec![point("1", "1"), point(x, w)]), message);
+        }
+        let older = json.replace("\"version\":2", "\"version\":1");
+        let message = ChainComplex::from_json(&older).unwrap_err().to_string();
+        assert_eq!(message, "exact points belong to version 2, and to no other; this is version 1");
     }
 
     #[test]

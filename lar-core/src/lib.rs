@@ -99,7 +99,7 @@ pub use homology::HomologyError;
 pub use ids::{CellId, EdgeId, FaceId, VertexId};
 pub use incidence::{cells_of_matrix, characteristic_matrix, shared_vertices};
 pub use integrate::{IntegrationError, MAX_DEGREE, MassProperties, PrincipalAxes, triangle_moment};
-pub use json::JsonError;
+pub use json::{ExactPoints, JsonError};
 pub use locate::{LocateError, Location, SolidLocator, locate_in_polygon};
 pub use mesh::TriangleMesh;
 pub use model::{Model, ModelViolation};

@@ -19,6 +19,7 @@
 
 mod cdt;
 mod complex;
+mod defects;
 mod ears;
 mod error;
 mod face;
@@ -34,6 +35,7 @@ mod ring;
 mod tree;
 
 pub use complex::{CellTriangles, Triangulation, triangulate, triangulate_cells};
+pub use defects::Defects;
 pub use error::TriangulateError;
 pub use face::{Quality, Triangulator, triangulate_face};
 pub use hull::{Hull, convex_hull};

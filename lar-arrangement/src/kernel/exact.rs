@@ -25,6 +25,7 @@ macro_rules! in_the_width_needed {
 
 in_the_width_needed! {
     exactly_rounded => rounded_in[5, 12, 23](def: &VertexDef) -> [f64; 3];
+    homogeneous => homogeneous_in[5, 12, 23](def: &VertexDef) -> [String; 4];
     moved_and_rounded => moved_and_rounded_in[6, 13, 24](def: &VertexDef, offset: [i128; 3]) -> [f64; 3];
     exact_side => side_in[6, 19, 30](def: &VertexDef, support: Support) -> Sign;
     exact_order => order_in[9, 23, 44](a: &VertexDef, b: &VertexDef, axis: usize) -> Ordering;
@@ -100,6 +101,13 @@ impl Geometry {
                     .expect("vertices on three planes are made where the planes cross")
             }
         }
+    }
+
+    /// X, Y, Z, W in decimal digits.
+    fn homogeneous_in<const W: usize>(&self, def: &VertexDef) -> [String; 4] {
+        let point = self.exact_point::<W>(def);
+        let [x, y, z] = point.x.map(Int::to_decimal);
+        [x, y, z, point.w.to_decimal()]
     }
 
     fn rounded_in<const W: usize>(&self, def: &VertexDef) -> [f64; 3] {

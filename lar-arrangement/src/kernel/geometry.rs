@@ -379,6 +379,11 @@ impl Geometry {
         Vertex { at: self.rounded(&def), def }
     }
 
+    /// Homogeneous coordinates X, Y, Z, W in grid steps, integers in decimal digits; W is positive.
+    pub(crate) fn homogeneous_point(&self, v: &Vertex) -> [String; 4] {
+        self.homogeneous(&v.def)
+    }
+
     /// The position of a vertex after a move by whole steps, correctly rounded.
     pub(crate) fn rounded_after(&self, v: &Vertex, offset: [i128; 3]) -> [f64; 3] {
         self.moved_and_rounded(&v.def, offset)

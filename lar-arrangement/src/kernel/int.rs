@@ -62,6 +62,29 @@ impl<const N: usize> Int<N> {
         double.hi * 2f64.powi(64 * skip as i32 + exponent)
     }
 
+    /// In decimal digits. O(N²).
+    #[must_use]
+    pub(super) fn to_decimal(self) -> String {
+        // The largest power of ten in a limb, and its number of zeros.
+        const CHUNK: (u64, usize) = (10_000_000_000_000_000_000, 19);
+        let mut rest = self;
+        let mut chunks = Vec::new();
+        while rest.len > 0 {
+            let mut remainder = 0u64;
+            for limb in rest.limbs[..rest.len].iter_mut().rev() {
+                let dividend = u128::from(remainder) << 64 | u128::from(*limb);
+                *limb = (dividend / u128::from(CHUNK.0)) as u64;
+                remainder = (dividend % u128::from(CHUNK.0)) as u64;
+            }
+            rest.trim(rest.len);
+            chunks.push(remainder);
+        }
+        let sign = if self.negative { "-" } else { "" };
+        let mut out = format!("{sign}{}", chunks.pop().unwrap_or(0));
+        chunks.iter().rev().for_each(|chunk| out.push_str(&format!("{chunk:0width$}", width = CHUNK.1)));
+        out
+    }
+
     /// `self · 2^shift`.
     #[must_use]
     pub(crate) fn shifted(&self, shift: u32) -> Self {
@@ -282,6 +305,7 @@ mod tests {
             prop_assert_eq!(to_big(&(a * b)), &x * &y);
             prop_assert_eq!(to_big(&a.shifted(shift)), &x << shift as usize);
             prop_assert_eq!(a.cmp(&b), x.cmp(&y));
+            prop_assert_eq!((a * b).to_decimal(), (&x * &y).to_string());
             prop_assert_eq!(to_big(&a.resize::<5>()), x);
         }
     }

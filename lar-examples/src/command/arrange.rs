@@ -1,13 +1,16 @@
 //! `lar arrange`: the partition of space that the inputs generate.
 
 use super::input::{Inputs, Operands};
-use super::report::{Coplanarity, Json, Moves, Operand, Stages, Threads, arrange, counted, print_laws};
+use super::report::{
+    Coplanarity, Json, Moves, Operand, Rounding, Stages, Threads, arrange, counted, print_laws,
+};
 use super::stats::{Counters, Table, peak_memory};
 use crate::checks::{boundary_squared_zero, parents_ok};
 use crate::output::{check_directory, check_distinct, check_file, write_directory};
 use crate::{CommandError, tables};
 use lar_arrangement::Arrangement;
 use lar_core::CellId;
+use lar_triangle::Triangulation;
 use serde::Serialize;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -29,6 +32,9 @@ pub(crate) struct Arrange {
     /// Write the chain complex as JSON.
     #[arg(long, value_name = "PATH")]
     complex: Option<PathBuf>,
+    /// Write the exact positions of the vertices into the chain complex too, as quotients of integers on a grid.
+    #[arg(long, requires = "complex")]
+    exact: bool,
     /// Write each bounded cell as a triangulated OBJ file into a new directory.
     #[arg(long, value_name = "DIR")]
     obj: Option<PathBuf>,
@@ -68,6 +74,7 @@ struct Report {
     inputs: Vec<Operand>,
     grid_step: f64,
     moved: Moves,
+    rounding: Rounding,
     counters: Counters,
     /// Bytes, where the system tells.
     peak_memory: Option<u64>,
@@ -91,12 +98,16 @@ impl Arrange {
         self.check_outputs()?;
         let operands = self.inputs.read()?;
         let (arrangement, time) = arrange(&operands.surfaces, self.threads, self.coplanarity)?;
-        let report = self.report(&arrangement, &operands, time, start);
+        let triangles = lar_triangle::triangulate(arrangement.complex())?;
+        let report = self.report(&arrangement, &triangles, &operands, (time, start));
         if let Some(dir) = &self.obj {
-            write_cells(&arrangement, dir)?;
+            write_cells(&arrangement, &triangles, dir)?;
         }
         if let Some(path) = &self.complex {
-            arrangement.complex().write_json(path)?;
+            match self.exact {
+                true => arrangement.complex().write_json_exact(path, arrangement.exact_points())?,
+                false => arrangement.complex().write_json(path)?,
+            }
         }
         self.json.deliver("arrange", &report, out, |out| {
             print(&arrangement, &report, out)?;
@@ -116,7 +127,15 @@ impl Arrange {
         self.obj.as_deref().map_or(Ok(()), check_directory)
     }
 
-    fn report(&self, a: &Arrangement, operands: &Operands, time: Duration, start: Instant) -> Report {
+    fn report(
+        &self,
+        a: &Arrangement,
+        triangles: &Triangulation,
+        operands: &Operands,
+        (time, start): (Duration, Instant),
+    ) -> Report {
+        let volumes = a.volumes();
+        let defects = triangles.defects(a.complex().points(), |face| a.normal(face));
         let mut report = Report {
             vertices: a.n_vertices(),
             edges: a.n_edges(),
@@ -129,7 +148,8 @@ impl Arrange {
             boundary_squared_zero: boundary_squared_zero(a.complex()),
             euler: a.euler(),
             euler_ok: a.euler() == 0,
-            volumes: a.volumes(),
+            rounding: Rounding::new(triangles, defects, &volumes[1..]),
+            volumes,
             inside: (0..a.n_cells()).map(|cell| tables::inside(a, cell).collect()).collect(),
             parents_ok: parents_ok(a, &operands.surfaces),
             dangling_faces: a.dangling_faces().count(),
@@ -152,8 +172,7 @@ impl Arrange {
 }
 
 /// `cell_001.obj` … : each bounded cell, its triangles outward.
-fn write_cells(arrangement: &Arrangement, dir: &Path) -> Result<(), CommandError> {
-    let triangles = lar_triangle::triangulate(arrangement.complex())?;
+fn write_cells(arrangement: &Arrangement, triangles: &Triangulation, dir: &Path) -> Result<(), CommandError> {
     let cells = 1..u32::try_from(arrangement.n_cells()).unwrap_or(u32::MAX);
     let digits = cells.end.saturating_sub(1).to_string().len().max(3);
     write_directory(dir, |dir| {
@@ -186,6 +205,9 @@ fn print(arrangement: &Arrangement, report: &Report, out: &mut dyn Write) -> Res
     }
     if let Some(moved) = report.moved.line() {
         writeln!(out, "{moved}")?;
+    }
+    if let Some(rounding) = report.rounding.line() {
+        writeln!(out, "{rounding}")?;
     }
     for open in report.inputs.iter().filter_map(Operand::warning) {
         writeln!(out, "{open}")?;

@@ -2,7 +2,7 @@
 //! files.
 //!
 //! ```text
-//! lar arrange INPUT... [--json PATH|-] [--complex PATH] [--obj DIR] [--stats] [--as-given | --tolerance LENGTH]
+//! lar arrange INPUT... [--json PATH|-] [--complex PATH [--exact]] [--obj DIR] [--stats] [--as-given | --tolerance LENGTH]
 //!           [--merge-coplanar] [--threads N]
 //! lar boolean EXPR INPUT... -o OUT [--json PATH|-] [--fill RULE] [--keep-fragments] [--as-given | --tolerance LENGTH]
 //!           [--merge-coplanar] [--threads N]

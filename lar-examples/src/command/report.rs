@@ -5,6 +5,7 @@ use crate::bar::Bar;
 use crate::output::Sink;
 use lar_arrangement::{Arrangement, Arranger, Closure, Merge, Planes, Stats};
 use lar_core::{CellId, Surface};
+use lar_triangle::{Defects, Triangulation};
 use serde::{Serialize, Serializer};
 use std::io::Write;
 use std::num::NonZeroUsize;
@@ -131,6 +132,44 @@ impl Moves {
         let points = counted(usize::try_from(self.points).unwrap_or(usize::MAX), "point");
         (self.points > 0).then(|| {
             format!("{points} moved by up to {:.1e}, onto {} common planes", self.farthest, self.planes)
+        })
+    }
+}
+
+/// What rounding of exact positions to 64 bits did: all zero when the rounded complex is embedded as the exact one is.
+#[derive(Debug, Serialize)]
+pub(crate) struct Rounding {
+    /// Faces whose rounded loops fold, touch or have no area: they have triangles, but no planar triangulation.
+    folded_faces: usize,
+    /// Triangles that look against the exact normal of their face.
+    inverted_triangles: usize,
+    /// Triangles without area.
+    degenerate_triangles: usize,
+    /// Bounded cells without a positive volume.
+    flat_cells: usize,
+}
+
+impl Rounding {
+    pub(crate) fn new(triangulation: &Triangulation, defects: Defects, volumes: &[f64]) -> Self {
+        Self {
+            folded_faces: triangulation.fallbacks,
+            inverted_triangles: defects.inverted,
+            degenerate_triangles: defects.degenerate,
+            flat_cells: volumes.iter().filter(|v| **v <= 0.0).count(),
+        }
+    }
+
+    /// A line about it, when there is anything.
+    pub(crate) fn line(&self) -> Option<String> {
+        let triangles = self.inverted_triangles + self.degenerate_triangles;
+        (self.folded_faces + triangles + self.flat_cells > 0).then(|| {
+            let counts = [
+                counted(self.folded_faces, "folded face"),
+                counted(self.inverted_triangles, "inverted triangle"),
+                counted(self.degenerate_triangles, "degenerate triangle"),
+                counted(self.flat_cells, "flat cell"),
+            ];
+            format!("after rounding: {}", counts.join(", "))
         })
     }
 }
