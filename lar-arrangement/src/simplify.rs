@@ -30,7 +30,6 @@ pub struct SolidComplex {
     loops: Cells,
     face_loops: Vec<u32>,
     parents: Vec<Vec<Parent>>,
-    normals: Vec<[f64; 3]>,
 }
 
 impl SolidComplex {
@@ -55,12 +54,6 @@ impl SolidComplex {
     #[must_use]
     pub fn parents(&self, face: FaceId) -> &[Parent] {
         &self.parents[face.index()]
-    }
-
-    /// The unit normal of a face's exact plane, outward, rounded.
-    #[must_use]
-    pub fn normal(&self, face: FaceId) -> [f64; 3] {
-        self.normals[face.index()]
     }
 
     /// V − E + Σ over faces of (2 − loops).
@@ -117,9 +110,7 @@ impl Solid<'_> {
         let removal = Removal { edges: &removed, new_face: &new_face, n_new_faces, vertices: &straight };
         let merged = merge::merge(&faces, &removal, |v| points.xyz(surface.vertices[v as usize] as usize));
         let mut parents = vec![Vec::new(); n_new_faces];
-        let mut normals = vec![[0.0; 3]; n_new_faces];
         for (&(face, sign), &new) in surface.faces.iter().zip(&new_face) {
-            normals[new as usize] = self.arrangement.normal(face).map(|x| x * f64::from(sign));
             let signed = |p: &Parent| Parent { sign: p.sign * sign, ..*p };
             parents[new as usize].extend(self.arrangement.parents(face).iter().map(signed));
         }
@@ -127,7 +118,7 @@ impl Solid<'_> {
             list.sort_unstable();
             list.dedup();
         }
-        surface.finished(merged, (parents, normals), points)
+        surface.finished(merged, parents, points)
     }
 }
 
@@ -232,12 +223,7 @@ impl<'a> OutwardFaces<'a> {
         candidates
     }
 
-    fn finished(
-        &self,
-        merged: Merged,
-        (parents, normals): (Vec<Vec<Parent>>, Vec<[f64; 3]>),
-        points: &Points,
-    ) -> SolidComplex {
+    fn finished(&self, merged: Merged, parents: Vec<Vec<Parent>>, points: &Points) -> SolidComplex {
         let at = |v: &u32| points.xyz(self.vertices[*v as usize] as usize);
         let positions: Vec<[f64; 3]> = merged.vertices.iter().map(at).collect();
         let tail = |&h: &u32| merged.edges[(h / 2) as usize][(h % 2) as usize];
@@ -249,7 +235,6 @@ impl<'a> OutwardFaces<'a> {
             loops,
             face_loops: merged.face_loops,
             parents,
-            normals,
         }
     }
 }

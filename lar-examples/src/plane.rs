@@ -19,7 +19,5 @@ pub mod scenes;
 pub(crate) use boolean::{Boolean, BooleanOptions, arranged};
 pub use color::face_colors;
 pub(crate) use file::PictureFile;
-#[cfg(feature = "viewer")]
-pub(crate) use input::extension;
-pub(crate) use input::{Input, Shapes, Source};
+pub(crate) use input::{Input, Shapes, Source, extension};
 pub use picture::{Color, PaintedPath, Picture, Run, Stroke};

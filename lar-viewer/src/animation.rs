@@ -58,6 +58,7 @@ impl Animation {
         encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
         encoder.set_animated(n, 0)?;
         encoder.set_frame_delay(1, rate)?;
+        encoder.validate_sequence(true);
         Ok(Self { encoder: encoder.write_header()?, bytes, size })
     }
 
