@@ -32,7 +32,6 @@ pub use seg::{parse_segments, read_segments};
 #[cfg(feature = "svg")]
 pub(crate) use source::clip;
 pub(crate) use text::TextWriter;
-#[cfg(feature = "svg")]
 pub(crate) use text::push_number;
 pub use weld::Weld;
 pub(crate) use weld::Welder;
