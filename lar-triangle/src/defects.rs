@@ -22,7 +22,8 @@ impl Triangulation {
     /// let square = ChainComplex::from_model(&cuboid_grid(&[1, 1]).embedded(3)?)?;
     /// let triangles = lar_triangle::triangulate(&square)?;
     /// let defects = |z: f64| triangles.defects(square.points(), |_| [0.0, 0.1, z]);
-    /// assert_eq!((defects(1.0).inverted, defects(-1.0).inverted, defects(1.0).degenerate), (0, 2, 0));
+    /// // The loop of a grid's square turns clockwise seen from above: it looks down.
+    /// assert_eq!((defects(-1.0).inverted, defects(1.0).inverted, defects(-1.0).degenerate), (0, 2, 0));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
