@@ -93,7 +93,9 @@ def check(workload, row):
     for ours, what in [(one, "boolean 2"), (cells, "cells 2")]:
         assert what not in row or row[what]["lar"]["counts"] == ours["counts"], f"{workload}: threads change the counts"
     if workload != "holes":
-        assert math.isclose(one["volume"], cells["volume"], rel_tol=1e-9), f"{workload}: cells do not add up to the union"
+        # Operands may enclose pockets, which are cells of the arrangement but no part of the union.
+        most = cells["volume"] * (1 + 1e-9)
+        assert one["volume"] <= most, f"{workload}: the union is larger than all cells together"
     for what, results in row.items():
         ours = results["lar"]
         for name, result in results.items():
