@@ -106,7 +106,8 @@ fn is_fan(geometry: &Geometry, p: u32, corners: &[u32], distance: f64) -> bool {
     });
     let at = geometry.position(p);
     let length = |v: [f64; 3]| v[0].abs() + v[1].abs() + v[2].abs();
-    // Exactly at right angles to w, whatever was rounded there.
+    // Exactly at right angles to w, whatever was rounded there; any such vector will do that is not tiny beside w, so the
+    // 4 decides nothing.
     let m =
         if 4.0 * (w[0].abs() + w[1].abs()) > w[2].abs() { [-w[1], w[0], 0.0] } else { [0.0, -w[2], w[1]] };
     let mut passes = 0;
