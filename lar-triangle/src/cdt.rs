@@ -12,6 +12,7 @@
 //! Insertion in an order mixed by a fixed generator with a hierarchy of hints costs O(n log n) expected.
 
 use crate::predicates::{Xy, orient};
+use crate::steps::step;
 use spade::handles::{FixedFaceHandle, FixedVertexHandle, InnerTag};
 use spade::{
     ConstrainedDelaunayTriangulation, HierarchyHintGenerator, Intersection, LineIntersectionIterator, Point2,
@@ -72,7 +73,8 @@ impl Cdt {
     }
 
     fn is_free(&self, from: FixedVertexHandle, to: FixedVertexHandle) -> bool {
-        LineIntersectionIterator::new_from_handles(&self.plane, from, to).all(|met| match met {
+        let met = LineIntersectionIterator::new_from_handles(&self.plane, from, to);
+        met.inspect(|_| step()).all(|met| match met {
             Intersection::EdgeIntersection(edge) => !edge.is_constraint_edge(),
             Intersection::VertexIntersection(v) => v.fix() == from || v.fix() == to,
             Intersection::EdgeOverlap(edge) => edge.from().fix() == from && edge.to().fix() == to,

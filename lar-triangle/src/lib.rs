@@ -17,6 +17,10 @@
 //!   the order of the input, unless rounding made the face untriangulable, which is counted
 //!   ([`Triangulation::fallbacks`]).
 
+// The tests of this crate share code with those beside it, which know it by its name.
+#[cfg(test)]
+extern crate self as lar_triangle;
+
 mod cdt;
 mod complex;
 mod defects;
@@ -32,6 +36,7 @@ mod loops;
 mod planar;
 mod predicates;
 mod ring;
+mod steps;
 mod tree;
 
 pub use complex::{CellTriangles, Triangulation, triangulate, triangulate_cells};

@@ -208,44 +208,6 @@ fn malformed_loops() {
     assert_eq!(error.to_string(), "points have 1 coordinates, the triangulation takes 2 or 3");
 }
 
-/// Seconds for `n` corners, the best of three runs.
-fn seconds(make: impl Fn(usize) -> Polygon, n: usize) -> f64 {
-    let polygon = make(n);
-    let (points, loops) = (polygon.points(), polygon.loop_slices());
-    let run = || {
-        let start = std::time::Instant::now();
-        let triangles = triangulate_face(&points, &loops).expect("well-formed");
-        assert!(!triangles.is_empty());
-        start.elapsed().as_secs_f64()
-    };
-    (0..3).map(|_| run()).fold(f64::MAX, f64::min)
-}
-
-/// A comb with a tooth of no area: the fallback.
-fn broken_comb(teeth: usize) -> Polygon {
-    let mut polygon = comb(teeth);
-    let n = polygon.xy.len();
-    polygon.xy[n / 2] = polygon.xy[n / 2 + 1];
-    polygon
-}
-
-#[test]
-fn large_faces_take_near_linear_time() {
-    type Make = fn(usize) -> Polygon;
-    let shapes: [(&str, Make, usize); 5] = [
-        ("comb", comb, 1000),
-        ("broken comb", broken_comb, 1000),
-        ("spiral", |n| spiral(n / 50, 50), 2000),
-        ("sieve", |n| sieve(n.isqrt()), 400),
-        ("one point", |n| Polygon::default().with(vec![[0.0, 0.0]; n]), 4000),
-    ];
-    for (name, make, n) in shapes {
-        let (small, large) = (seconds(make, n), seconds(make, 8 * n));
-        // Linear would be 8, quadratic 64.
-        assert!(large < 32.0 * small.max(1e-3), "{name}: {small} s, eight times as large {large} s");
-    }
-}
-
 /// A random star-shaped polygon around the origin with holes that are smaller copies of stars inside it.
 fn star_with_holes() -> impl Strategy<Value = Polygon> {
     (3usize..40, 0usize..5, any::<u64>()).prop_map(|(n, holes, seed)| {
