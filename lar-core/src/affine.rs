@@ -104,7 +104,7 @@ impl Affine {
         &self.matrix
     }
 
-    /// Determinant of the linear part: the factor by which volumes grow, negative for mirrors.
+    /// Determinant of the linear part: the factor by which volumes grow, negative for mirrors. O(d³).
     #[must_use]
     pub fn determinant(&self) -> f64 {
         determinant(self.linear())
@@ -133,7 +133,7 @@ impl Affine {
         if scaled_determinant(self.linear()) == 0. { Err(AffineError::Singular) } else { Ok(()) }
     }
 
-    /// The map that undoes this one.
+    /// The map that undoes this one. O(d³).
     ///
     /// # Errors
     /// As [`check_regular`](Self::check_regular).
@@ -146,7 +146,7 @@ impl Affine {
         Ok(Self { matrix })
     }
 
-    /// `self` after `first`.
+    /// `self` after `first`. O(d³).
     ///
     /// # Errors
     /// When they are maps of different spaces.
@@ -166,7 +166,7 @@ impl Affine {
         Ok(self.image(point).collect())
     }
 
-    /// The images of all points.
+    /// The images of all points. O(d² n).
     ///
     /// # Errors
     /// When the points are not of the map's space.

@@ -110,7 +110,7 @@ impl Chain {
         self.entries.is_empty()
     }
 
-    /// The sum of two chains on the same cells.
+    /// The sum of two chains on the same cells. O(entries).
     ///
     /// # Errors
     /// When they are not of one dimension and cell count, or a coefficient does not fit `i32`.
@@ -118,7 +118,7 @@ impl Chain {
         self.combine(other, 1)
     }
 
-    /// The difference of two chains on the same cells.
+    /// The difference of two chains on the same cells. O(entries).
     ///
     /// # Errors
     /// As [`try_add`](Self::try_add).
@@ -126,7 +126,7 @@ impl Chain {
         self.combine(other, -1)
     }
 
-    /// The chain with every coefficient multiplied by `factor`.
+    /// The chain with every coefficient multiplied by `factor`. O(entries).
     ///
     /// # Errors
     /// When a coefficient does not fit `i32`.
@@ -191,7 +191,7 @@ impl ChainComplex {
         Chain::new(p, self.n_cells(p), entries)
     }
 
-    /// δp = ∂p+1ᵀ: rows (p+1)-cells, columns p-cells, compressed rows.
+    /// δp = ∂p+1ᵀ: rows (p+1)-cells, columns p-cells, compressed rows. O(entries).
     ///
     /// # Panics
     /// When `p` is not below `dim()`.

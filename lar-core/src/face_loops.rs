@@ -63,7 +63,7 @@ impl ChainComplex {
 
     /// The area vector of face `f`: the sum of its loops' (Newell), so that holes count against the outer
     /// loop. It points along the normal and is as long as the area. Points of two coordinates lie in the plane
-    /// z = 0.
+    /// z = 0. O(edges of the face).
     ///
     /// # Panics
     /// As [`face_loops`](Self::face_loops), and when ∂1 has more rows than there are points.
@@ -79,7 +79,7 @@ impl ChainComplex {
     }
 
     /// The unit normal of face `f`, from whose tip its outer loop turns counter-clockwise; `None` when its
-    /// area is zero or not finite.
+    /// area is zero or not finite. O(edges of the face).
     ///
     /// # Panics
     /// As [`face_area_vector`](Self::face_area_vector).
@@ -95,7 +95,7 @@ impl ChainComplex {
         Some(scaled.map(|x| x / length))
     }
 
-    /// The area of face `f`, holes subtracted.
+    /// The area of face `f`, holes subtracted. O(edges of the face).
     ///
     /// # Panics
     /// As [`face_area_vector`](Self::face_area_vector).

@@ -68,7 +68,7 @@ pub fn triangular_prism() -> Model {
 
 /// A sphere of radius 1 about the origin: the regular icosahedron, its triangles cut into four at the
 /// midpoints of their edges and the midpoints pushed out to the sphere, `level` times. 20 · 4^level triangles,
-/// outward.
+/// outward. O(size).
 ///
 /// # Panics
 /// When `level` is above 13: the vertices could not be numbered by `u32`.

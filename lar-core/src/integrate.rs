@@ -86,7 +86,7 @@ impl ChainComplex {
     }
 
     /// ∫ x^a y^b z^c over a chain: the sum over its cells, each times its coefficient. Signs as in
-    /// [`cell_integrals`](Self::cell_integrals).
+    /// [`cell_integrals`](Self::cell_integrals). O(size of the chain's cells).
     ///
     /// # Errors
     /// As [`cell_integrals`](Self::cell_integrals), and when the chain is not of this complex.
@@ -159,7 +159,7 @@ impl ChainComplex {
         self.per_cell(p, MassProperties::of_pieces)
     }
 
-    /// The mass properties of a chain; each cell has its coefficient as density.
+    /// The mass properties of a chain; each cell has its coefficient as density. O(size of the chain's cells).
     ///
     /// # Errors
     /// As [`chain_integral`](Self::chain_integral).

@@ -253,7 +253,7 @@ impl ChainComplex {
         parse(text.as_bytes())
     }
 
-    /// Writes the complex as JSON to a file, whole or not at all.
+    /// Writes the complex as JSON to a file, whole or not at all. O(size).
     ///
     /// # Errors
     /// As [`to_json`](Self::to_json), and when the file cannot be written.
@@ -261,7 +261,7 @@ impl ChainComplex {
         write(path.as_ref(), &self.to_json()?)
     }
 
-    /// Writes the complex with exact positions as JSON of version 2 to a file, whole or not at all.
+    /// Writes the complex with exact positions as JSON of version 2 to a file, whole or not at all. O(size).
     ///
     /// # Errors
     /// As [`to_json_exact`](Self::to_json_exact), and when the file cannot be written.
@@ -269,7 +269,7 @@ impl ChainComplex {
         write(path.as_ref(), &self.to_json_exact(exact)?)
     }
 
-    /// Reads a complex from a JSON file.
+    /// Reads a complex from a JSON file. O(size).
     ///
     /// # Errors
     /// As [`from_json`](Self::from_json), naming the file, and when it cannot be read.

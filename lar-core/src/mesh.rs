@@ -42,7 +42,7 @@ impl TriangleMesh {
     }
 
     /// The mesh moved by an affine map; triangles are reversed when the map mirrors, so that outward stays
-    /// outward.
+    /// outward. O(n).
     ///
     /// # Errors
     /// When the map is not of the space of the points.
@@ -72,7 +72,7 @@ impl TriangleMesh {
         doubled.sum::<f64>() / 2.
     }
 
-    /// Lower and upper corner of the bounding box of the points; `None` when there are none.
+    /// Lower and upper corner of the bounding box of the points; `None` when there are none. O(n).
     #[must_use]
     pub fn bounds(&self) -> Option<([f64; 3], [f64; 3])> {
         let (lo, hi) = self.points.bounds()?;

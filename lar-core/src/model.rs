@@ -127,7 +127,7 @@ impl Model {
     }
 
     /// The model moved by an affine map. Cyclic faces (2-cells of a model without 1-cells) are reversed when
-    /// the map mirrors, so that an outward face stays outward.
+    /// the map mirrors, so that an outward face stays outward. O(size).
     ///
     /// # Errors
     /// When the map is not of the model's space.

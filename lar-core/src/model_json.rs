@@ -214,7 +214,7 @@ impl Model {
         model_of(0, file.into())
     }
 
-    /// Writes the model as JSON to a file, whole or not at all.
+    /// Writes the model as JSON to a file, whole or not at all. O(size).
     ///
     /// # Errors
     /// As [`to_json`](Self::to_json), and when the file cannot be written.
@@ -222,7 +222,7 @@ impl Model {
         write_line(path.as_ref(), &self.to_json()?)
     }
 
-    /// Reads a model from a JSON file.
+    /// Reads a model from a JSON file. O(size).
     ///
     /// # Errors
     /// As [`from_json`](Self::from_json), naming the file, and when it cannot be read.
@@ -266,7 +266,7 @@ impl Struct {
         hierarchy_of(parse(text.as_bytes(), STRUCT)?)
     }
 
-    /// Writes the hierarchy as JSON to a file, whole or not at all.
+    /// Writes the hierarchy as JSON to a file, whole or not at all. O(size).
     ///
     /// # Errors
     /// As [`to_json`](Self::to_json), and when the file cannot be written.
@@ -274,7 +274,7 @@ impl Struct {
         write_line(path.as_ref(), &self.to_json()?)
     }
 
-    /// Reads a hierarchy from a JSON file.
+    /// Reads a hierarchy from a JSON file. O(size).
     ///
     /// # Errors
     /// As [`from_json`](Self::from_json), naming the file, and when it cannot be read.

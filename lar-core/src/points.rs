@@ -113,20 +113,20 @@ impl Points {
         &mut self.coords
     }
 
-    /// The d × n matrix, one column a point.
+    /// The d × n matrix, one column a point. O(d n).
     #[must_use]
     pub fn to_matrix(&self) -> DMatrix<f64> {
         DMatrix::from_column_slice(self.dim, self.len(), &self.coords)
     }
 
-    /// The coordinates that are infinite or not numbers: point, axis, value.
+    /// The coordinates that are infinite or not numbers: point, axis, value. O(d n).
     pub fn non_finite(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
         let dim = self.dim.max(1);
         let at = move |(i, &x): (usize, &f64)| (i / dim, i % dim, x);
         self.coords.iter().enumerate().filter(|(_, x)| !x.is_finite()).map(at)
     }
 
-    /// Lower and upper corner of the bounding box; `None` when there are no points.
+    /// Lower and upper corner of the bounding box; `None` when there are no points. O(d n).
     #[must_use]
     pub fn bounds(&self) -> Option<(Vec<f64>, Vec<f64>)> {
         let first = self.iter().next()?;

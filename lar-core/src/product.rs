@@ -62,6 +62,7 @@ pub fn product(a: &Model, b: &Model) -> Result<Model, ProductError> {
 }
 
 /// The product of any number of factors, from left to right: A × B × C …; of none, the grid of no dimension.
+/// O(size of the result).
 ///
 /// # Errors
 /// As [`product`].
@@ -80,7 +81,7 @@ pub fn product_all<'a>(factors: impl IntoIterator<Item = &'a Model>) -> Result<M
     factors.try_fold(first.clone(), |so_far, next| product(&so_far, next))
 }
 
-/// All points of `a` followed by all of `b`, `b` fastest: a (d_a + d_b) × (n_a · n_b) matrix.
+/// All points of `a` followed by all of `b`, `b` fastest: a (d_a + d_b) × (n_a · n_b) matrix. O(size of the result).
 ///
 /// # Errors
 /// When there are 2^32 points or more.
@@ -107,6 +108,7 @@ pub fn product_points(a: &Points, b: &Points) -> Result<Points, ProductError> {
 
 /// Each cell of `a` times each cell of `b`, `b` fastest: cells of the pairs a · `stride` + b of their
 /// vertices in row-major order, `stride` being the number of vertices that the cells of `b` are numbered by.
+/// O(size of the result).
 ///
 /// # Errors
 /// When the cells would have 2^32 entries or more, or name a vertex that does not fit `u32`.

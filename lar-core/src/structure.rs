@@ -176,7 +176,7 @@ impl Struct {
     }
 
     /// Every model of the hierarchy in depth-first order from left to right, with the matrix that places it.
-    /// No geometry is copied.
+    /// No geometry is copied. O(instances).
     ///
     /// # Errors
     /// When a matrix is singular or not finite, or nodes are of different spaces.
@@ -228,6 +228,7 @@ impl Struct {
     }
 
     /// Every model of the hierarchy in world coordinates, in the order of [`traversal`](Self::traversal).
+    /// O(size of the result).
     ///
     /// # Errors
     /// As [`traversal`](Self::traversal).
@@ -250,7 +251,7 @@ impl Struct {
 
     /// All models of the hierarchy as one: points and cells of each dimension one model after the other.
     /// Points that coincide are kept apart; [`Model::welded`] merges those that are exactly equal, an
-    /// arrangement all that should be.
+    /// arrangement all that should be. O(size of the result).
     ///
     /// # Errors
     /// As [`traversal`](Self::traversal), and when `u32` cannot number the result.

@@ -113,7 +113,7 @@ impl Surface {
     }
 
     /// The surface moved by an affine map; all loops are reversed when the map mirrors, so that outward faces
-    /// stay outward.
+    /// stay outward. O(size).
     ///
     /// # Errors
     /// When the map is not of 3-space.

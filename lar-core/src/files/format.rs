@@ -115,7 +115,7 @@ pub fn read_surface(path: impl AsRef<Path>) -> Result<SurfaceFile, MeshFileError
     }
 }
 
-/// Reads a surface from the bytes of a file; `file` is for the format, the name and messages.
+/// Reads a surface from the bytes of a file; `file` is for the format, the name and messages. O(size).
 ///
 /// # Errors
 /// As [`read_surface`].
@@ -142,7 +142,7 @@ pub fn parse_surface(bytes: &[u8], file: impl AsRef<Path>) -> Result<SurfaceFile
 
 /// Writes a surface or triangle mesh in the format that the extension stands for, whole or not at all:
 /// polygons as OBJ, PLY (binary, 64-bit) and OFF, triangles also as STL (binary) and glTF. What is read back
-/// is the same surface, up to rounding to 32 bits in STL and glTF.
+/// is the same surface, up to rounding to 32 bits in STL and glTF. O(size).
 ///
 /// # Errors
 /// When the extension is unknown, a face does not fit the format, a coordinate cannot be held, or the file

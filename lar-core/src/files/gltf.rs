@@ -24,7 +24,7 @@ pub struct GltfNode<'a> {
     pub colour: [f32; 4],
 }
 
-/// The scene as a binary glTF file.
+/// The scene as a binary glTF file. O(size).
 ///
 /// # Errors
 /// When a triangle names a vertex that does not exist, a coordinate does not fit 32 bits, or the file would
@@ -59,7 +59,7 @@ pub fn to_glb(nodes: &[GltfNode<'_>]) -> Result<Vec<u8>, MeshFileError> {
     Ok(glb)
 }
 
-/// The scene as glTF in JSON, its buffer inside in base 64.
+/// The scene as glTF in JSON, its buffer inside in base 64. O(size).
 ///
 /// # Errors
 /// As [`to_glb`].
@@ -75,7 +75,7 @@ pub fn to_gltf(nodes: &[GltfNode<'_>]) -> Result<String, MeshFileError> {
     Ok(scene(nodes, Some("data:application/octet-stream;base64,"))?.0.to_string())
 }
 
-/// Writes the scene whole or not at all: as JSON when the extension is `gltf`, else in binary.
+/// Writes the scene whole or not at all: as JSON when the extension is `gltf`, else in binary. O(size).
 ///
 /// # Errors
 /// As [`to_glb`], and when the file cannot be written.

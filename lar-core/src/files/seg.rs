@@ -31,7 +31,7 @@ pub fn read_segments(path: impl AsRef<Path>) -> Result<Vec<[f64; 4]>, MeshFileEr
     read(path, &mut BufReader::with_capacity(BUFFER, file))
 }
 
-/// Reads segments from the text of a file; `file` is for messages.
+/// Reads segments from the text of a file; `file` is for messages. O(size).
 ///
 /// # Errors
 /// As [`read_segments`].

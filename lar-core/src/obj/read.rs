@@ -48,7 +48,7 @@ pub(crate) fn is_utf16(bytes: &[u8]) -> bool {
     bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff")
 }
 
-/// Reads the text of an OBJ file; `file` is for names and messages.
+/// Reads the text of an OBJ file; `file` is for names and messages. O(size).
 ///
 /// # Errors
 /// As [`read_obj`].

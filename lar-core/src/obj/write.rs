@@ -7,7 +7,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 impl TriangleMesh {
-    /// Writes the mesh as an OBJ file, whole or not at all.
+    /// Writes the mesh as an OBJ file, whole or not at all. O(size).
     ///
     /// # Errors
     /// When a triangle names a vertex that does not exist, the points are not of two or three coordinates, or
@@ -18,7 +18,7 @@ impl TriangleMesh {
         Ok(())
     }
 
-    /// The mesh as the text of an OBJ file.
+    /// The mesh as the text of an OBJ file. O(size).
     ///
     /// # Errors
     /// As [`write_obj`](Self::write_obj).
@@ -55,7 +55,7 @@ impl TriangleMesh {
 }
 
 impl ChainComplex {
-    /// Writes the faces of the complex as polygons of an OBJ file, whole or not at all.
+    /// Writes the faces of the complex as polygons of an OBJ file, whole or not at all. O(size).
     ///
     /// # Errors
     /// When a face has holes, the complex has no 2-cells or breaks its laws, the points are not of two or three
@@ -66,7 +66,7 @@ impl ChainComplex {
         Ok(())
     }
 
-    /// The faces of the complex as the text of an OBJ file.
+    /// The faces of the complex as the text of an OBJ file. O(size).
     ///
     /// # Errors
     /// As [`write_obj`](Self::write_obj).

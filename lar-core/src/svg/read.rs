@@ -43,7 +43,7 @@ pub fn read_svg(path: impl AsRef<Path>, tolerance: f64) -> Result<Drawing, SvgEr
     parse_svg(text, path, tolerance)
 }
 
-/// Reads the text of an SVG file; `file` is for messages.
+/// Reads the text of an SVG file; `file` is for messages. O(size of the text and of what `use` repeats).
 ///
 /// # Errors
 /// As [`read_svg`].

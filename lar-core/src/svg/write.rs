@@ -6,7 +6,7 @@ use crate::{ChainComplex, atomic_write};
 use std::path::Path;
 
 impl ChainComplex {
-    /// Writes the faces and edges of a complex of the plane as an SVG file, whole or not at all.
+    /// Writes the faces and edges of a complex of the plane as an SVG file, whole or not at all. O(size).
     ///
     /// # Errors
     /// As [`to_svg`](Self::to_svg), and when the file cannot be written.
