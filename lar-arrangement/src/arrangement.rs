@@ -156,6 +156,7 @@ impl Arrangement {
     }
 
     /// The exact positions of the vertices, of which those of [`complex`](Self::complex) are the correctly rounded ones.
+    /// O(vertices).
     ///
     /// ```
     /// let simplex = lar_core::simplex(3).to_surface("simplex")?;
@@ -198,7 +199,7 @@ impl Arrangement {
         self.shells_of_face[face.index()]
     }
 
-    /// Faces with the same cell on both sides: open sheets.
+    /// Faces with the same cell on both sides: open sheets. O(faces).
     pub fn dangling_faces(&self) -> impl Iterator<Item = FaceId> + '_ {
         (0..).map(FaceId).zip(&self.cells_of_face).filter(|(_, [front, back])| front == back).map(|(f, _)| f)
     }
@@ -220,6 +221,7 @@ impl Arrangement {
 
     /// Q for one input surface: rows its faces, columns the faces of the arrangement, entry ±1 where the latter is
     /// a piece of the former, by relative orientation (Paoluzzi 2019, §4.3); or the former of the latter, when it is merged.
+    /// O(parents of all faces).
     #[must_use]
     pub fn provenance(&self, solid: usize) -> Operator {
         let (mut offsets, mut rows, mut signs) = (vec![0u32], Vec::new(), Vec::new());
@@ -264,6 +266,7 @@ impl Arrangement {
     }
 
     /// The winding number of a solid in a cell (its parity for unoriented solids, 0 for open surfaces).
+    /// O(log solids around the cell).
     #[must_use]
     pub fn winding(&self, cell: CellId, solid: usize) -> i32 {
         let row = self.windings.of_cell(cell.index());

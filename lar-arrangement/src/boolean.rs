@@ -2,7 +2,10 @@
 //! and the cells where it holds are a 3-chain whose boundary ∂3 · chain is the surface of the result.
 
 use crate::arrangement::Arrangement;
+use crate::evaluator::Evaluator;
 use crate::expression::Expression;
+use crate::progress::{Cancelled, Course};
+use crate::stats::Stats;
 use crate::winding::Closure;
 use lar_core::{CellId, Chain, FaceId};
 
@@ -69,7 +72,19 @@ pub enum BooleanError {
         /// How many there are.
         n_solids: usize,
     },
+    /// It was asked to stop ([`Cancel`](crate::Cancel)).
+    #[error("cancelled")]
+    Cancelled,
 }
+
+impl From<Cancelled> for BooleanError {
+    fn from(_: Cancelled) -> Self {
+        Self::Cancelled
+    }
+}
+
+/// Steps of an expression that are evaluated between two looks at a request to stop.
+const STEPS_A_CHUNK: usize = 1 << 14;
 
 fn join(p: &[f64; 3]) -> String {
     format!("{}, {}, {}", p[0], p[1], p[2])
@@ -90,7 +105,7 @@ impl Arrangement {
         rule.is_inside(self.winding(cell, solid))
     }
 
-    /// The cells where an expression holds.
+    /// The cells where an expression holds. O(cells · length of the expression).
     ///
     /// ```
     /// use lar_arrangement::{arrange, Expression, FillRule};
@@ -108,16 +123,27 @@ impl Arrangement {
     /// An operand of the expression that is open, or not oriented with a rule that needs it, or does not exist.
     #[doc(alias = "bool3d")]
     pub fn boolean(&self, expression: &Expression, rule: FillRule) -> Result<Solid<'_>, BooleanError> {
+        Evaluator::new().fill(rule).solid(self, expression)
+    }
+
+    pub(crate) fn solid_where(
+        &self,
+        expression: &Expression,
+        rule: FillRule,
+        course: &Course,
+    ) -> Result<Solid<'_>, BooleanError> {
+        let times = &mut Stats::default();
+        course.begin("cells", times)?;
         for solid in expression.operands() {
             self.check_operand(solid, rule)?;
         }
-        let mut stack = Vec::new();
-        let inside: Vec<bool> = (0..self.n_cells() as u32)
-            .map(|cell| {
-                let is_inside = |solid| self.is_inside(CellId(cell), solid, rule);
-                expression.evaluate_with(&mut stack, is_inside)
-            })
-            .collect();
+        let (mut stack, mut inside) = (Vec::new(), Vec::with_capacity(self.n_cells()));
+        let cells_a_chunk = STEPS_A_CHUNK / expression.len() + 1;
+        course.walk(self.n_cells(), cells_a_chunk, |cell| {
+            let is_inside = |solid| self.is_inside(CellId(cell as u32), solid, rule);
+            inside.push(expression.evaluate_with(&mut stack, is_inside));
+        })?;
+        course.finish(times);
         Ok(self.solid(inside))
     }
 
@@ -139,7 +165,7 @@ impl Arrangement {
         }
     }
 
-    /// The union of some cells; cells that do not exist are left out.
+    /// The union of some cells; cells that do not exist are left out. O(cells).
     ///
     /// ```
     /// use lar_arrangement::arrange;
@@ -178,14 +204,14 @@ impl Solid<'_> {
         !self.inside.first().is_some_and(|exterior| *exterior)
     }
 
-    /// The cells as a chain.
+    /// The cells as a chain. O(cells).
     #[must_use]
     pub fn chain(&self) -> Chain {
         let n = self.inside.len();
         Chain::new(3, n, self.cells.iter().map(|c| (c.0, 1))).expect("the cells are those of the arrangement")
     }
 
-    /// The faces of its surface: ∂3 · chain. The sign is +1 where the face's normal points out of it.
+    /// The faces of its surface: ∂3 · chain. The sign is +1 where the face's normal points out of it. O(faces).
     pub fn boundary(&self) -> impl Iterator<Item = (FaceId, i8)> + '_ {
         (0..).map(FaceId).zip(&self.arrangement.cells_of_face).filter_map(|(face, cells)| {
             match cells.map(|c| self.inside[c as usize]) {
@@ -196,7 +222,7 @@ impl Solid<'_> {
         })
     }
 
-    /// Volume; infinite when the exterior is part of it.
+    /// Volume; infinite when the exterior is part of it. O(size of the arrangement).
     #[must_use]
     pub fn volume(&self) -> f64 {
         if !self.is_bounded() {
@@ -206,7 +232,7 @@ impl Solid<'_> {
         self.cells.iter().map(|c| volumes[c.index()]).sum()
     }
 
-    /// Area of its surface.
+    /// Area of its surface. O(size of the surface).
     #[must_use]
     pub fn area(&self) -> f64 {
         self.boundary().map(|(face, _)| self.arrangement.area(face)).sum()

@@ -23,7 +23,7 @@ impl Arrangement {
         self.complex.points().xyz(v as usize)
     }
 
-    /// The vector area of a face: its normal times its area.
+    /// The vector area of a face: its normal times its area. O(edges of the face).
     #[must_use]
     pub fn vector_area(&self, face: FaceId) -> Vec3 {
         let mut sum = [0.0; 3];
@@ -84,7 +84,7 @@ impl Arrangement {
     }
 
     /// V − E + Σ over faces of (2 − loops) − Σ over cells of χ(boundary) / 2, which is 0 for every partition of
-    /// space.
+    /// space. O(n log n).
     ///
     /// The boundary of a cell is taken as that of the cell shrunk a little: where the cell is pinched at a vertex,
     /// the corners of its shells there are counted by the regions of the vertex's link, the small sphere around
@@ -161,7 +161,7 @@ impl Arrangement {
             .collect()
     }
 
-    /// Number of connected components of the union of all faces.
+    /// Number of connected components of the union of all faces. O(n α(n)).
     #[must_use]
     pub fn n_components(&self) -> usize {
         let n = self.n_vertices();

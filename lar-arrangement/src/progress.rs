@@ -167,6 +167,17 @@ impl<'a> Course<'a> {
         parts.into_iter().collect::<Option<Vec<R>>>().ok_or(Cancelled)
     }
 
+    /// Calls `f` with 0..n in turn on this thread; between chunks it reports, and stops when asked to.
+    pub(crate) fn walk(&self, n: usize, chunk: usize, mut f: impl FnMut(usize)) -> Result<(), Cancelled> {
+        for begin in (0..n).step_by(chunk) {
+            let end = n.min(begin + chunk);
+            (begin..end).for_each(&mut f);
+            self.tell(&mut self.now(), end as f64 / n as f64);
+            self.go_on()?;
+        }
+        Ok(())
+    }
+
     fn tell(&self, now: &mut Now, part_of_stage: f64) {
         if let Some(report) = self.control.report {
             let [from, to] = now.span;

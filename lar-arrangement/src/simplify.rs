@@ -5,11 +5,21 @@
 //! planes are equal; a vertex lies on a straight edge when its two edges lie on the same two planes.
 
 use crate::boolean::Solid;
+use crate::evaluator::Evaluator;
 use crate::merge::{self, Faces, Merged, Removal};
 use crate::pipeline::{boundary_1, boundary_2};
+use crate::progress::{Cancelled, Course, Plan};
 use crate::soup::Parent;
+use crate::stats::Stats;
 use crate::union_find::UnionFind;
 use lar_core::{Cells, ChainComplex, FaceId, Points};
+
+/// The stages of a surface, and their usual shares in the time.
+pub(crate) const PLAN: &Plan =
+    &[("surface", 40), ("coplanar faces", 20), ("straight edges", 15), ("loops", 15), ("complex", 10)];
+
+/// Faces or edges a chunk of work.
+const CHUNK: usize = 4096;
 
 /// How much of the arrangement the surface of a solid shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -30,6 +40,7 @@ pub struct SolidComplex {
     loops: Cells,
     face_loops: Vec<u32>,
     parents: Vec<Vec<Parent>>,
+    pieces: Vec<(FaceId, i8)>,
 }
 
 impl SolidComplex {
@@ -56,14 +67,20 @@ impl SolidComplex {
         &self.parents[face.index()]
     }
 
-    /// V − E + Σ over faces of (2 − loops).
+    /// The first of the arrangement's faces that a face is made of, and +1 where they look the same way, −1 where not.
+    #[must_use]
+    pub fn piece(&self, face: FaceId) -> (FaceId, i8) {
+        self.pieces[face.index()]
+    }
+
+    /// V − E + Σ over faces of (2 − loops). O(faces).
     #[must_use]
     pub fn euler(&self) -> i64 {
         let faces: i64 = self.face_loops.windows(2).map(|w| 2 - i64::from(w[1] - w[0])).sum();
         self.complex.n_cells(0) as i64 - self.complex.n_cells(1) as i64 + faces
     }
 
-    /// Whether the surface is a cycle: ∂2 applied to the sum of all faces is zero.
+    /// Whether the surface is a cycle: ∂2 applied to the sum of all faces is zero. O(size).
     #[must_use]
     pub fn is_closed(&self) -> bool {
         let boundary = self.complex.boundary(2);
@@ -74,7 +91,7 @@ impl SolidComplex {
         sums.iter().all(|&s| s == 0)
     }
 
-    /// Number of connected components of the surface.
+    /// Number of connected components of the surface. O(n α(n)).
     #[must_use]
     pub fn n_components(&self) -> usize {
         let n = self.complex.n_cells(0);
@@ -89,37 +106,37 @@ impl SolidComplex {
 }
 
 impl Solid<'_> {
-    /// Its surface as a 2-complex. O(size of the surface) expected.
+    /// Its surface as a 2-complex. O(size of the surface) expected, with O(size of the arrangement) memory.
     #[must_use]
     pub fn to_complex(&self, detail: Detail) -> SolidComplex {
-        let surface = OutwardFaces::new(self);
-        let (removed, new_face, n_new_faces) = match detail {
-            Detail::Fragments => (
-                vec![false; surface.edges.len()],
-                (0..surface.faces.len() as u32).collect(),
-                surface.faces.len(),
-            ),
-            Detail::Simplified => surface.merged_faces(),
-        };
-        let straight = match detail {
-            Detail::Fragments => Default::default(),
-            Detail::Simplified => surface.straight_vertices(&removed, &new_face),
-        };
-        let points = self.arrangement.complex().points();
-        let faces = surface.loops_of_faces();
-        let removal = Removal { edges: &removed, new_face: &new_face, n_new_faces, vertices: &straight };
-        let merged = merge::merge(&faces, &removal, |v| points.xyz(surface.vertices[v as usize] as usize));
-        let mut parents = vec![Vec::new(); n_new_faces];
-        for (&(face, sign), &new) in surface.faces.iter().zip(&new_face) {
-            let signed = |p: &Parent| Parent { sign: p.sign * sign, ..*p };
-            parents[new as usize].extend(self.arrangement.parents(face).iter().map(signed));
-        }
-        for list in &mut parents {
-            list.sort_unstable();
-            list.dedup();
-        }
-        surface.finished(merged, parents, points)
+        Evaluator::new().detail(detail).surface(self).expect("nobody can ask it to stop")
     }
+}
+
+/// The surface of a solid as a 2-complex.
+pub(crate) fn surface(solid: &Solid<'_>, detail: Detail, course: &Course) -> Result<SolidComplex, Cancelled> {
+    let times = &mut Stats::default();
+    course.begin("surface", times)?;
+    let surface = OutwardFaces::new(solid, course)?;
+    course.begin("coplanar faces", times)?;
+    let (removed, new_face, n_new_faces) = match detail {
+        Detail::Fragments => surface.all_faces(),
+        Detail::Simplified => surface.merged_faces(course)?,
+    };
+    course.begin("straight edges", times)?;
+    let straight = match detail {
+        Detail::Fragments => Default::default(),
+        Detail::Simplified => surface.straight_vertices(&removed, &new_face),
+    };
+    course.begin("loops", times)?;
+    let points = solid.arrangement.complex().points();
+    let faces = surface.loops_of_faces();
+    let removal = Removal { edges: &removed, new_face: &new_face, n_new_faces, vertices: &straight };
+    let merged = merge::merge(&faces, &removal, |v| points.xyz(surface.vertices[v as usize] as usize));
+    course.begin("complex", times)?;
+    let out = surface.finished(merged, &new_face, n_new_faces);
+    course.finish(times);
+    Ok(out)
 }
 
 /// The boundary faces of a solid with vertices and edges numbered anew, all turned outwards.
@@ -135,39 +152,36 @@ struct OutwardFaces<'a> {
 }
 
 impl<'a> OutwardFaces<'a> {
-    fn new(solid: &'a Solid<'a>) -> Self {
+    fn new(solid: &'a Solid<'a>, course: &Course) -> Result<Self, Cancelled> {
         let a = solid.arrangement;
         let faces: Vec<(FaceId, i8)> = solid.boundary().collect();
-        let half_edges = |face: FaceId, sign: i8| -> Vec<Vec<u32>> {
-            a.face_loops(face)
-                .map(|cycle| {
-                    let codes = cycle.map(|h| 2 * h.edge.0 + u32::from(h.reversed));
-                    if sign > 0 {
-                        codes.collect()
-                    } else {
-                        codes.collect::<Vec<_>>().iter().rev().map(|h| h ^ 1).collect()
-                    }
-                })
-                .collect()
-        };
-        let cycles: Vec<Vec<Vec<u32>>> = faces.iter().map(|&(face, sign)| half_edges(face, sign)).collect();
-        let old_edges = compacted(cycles.iter().flatten().flatten().map(|h| h / 2), a.n_edges());
+        let of_face = |face: FaceId| a.face_loops(face).flatten().map(|h| h.edge.0);
+        let old_edges = compacted(faces.iter().flat_map(|&(face, _)| of_face(face)), a.n_edges());
+        course.go_on()?;
         let ends = |e: u32| [a.tail(2 * e), a.tail(2 * e + 1)];
         let vertices = compacted(old_edges.list.iter().flat_map(|&e| ends(e)), a.n_vertices());
         let edges: Vec<[u32; 2]> =
             old_edges.list.iter().map(|&e| ends(e).map(|v| vertices.new[v as usize])).collect();
         let (mut loops, mut face_loops) = (Cells::new(), vec![0]);
         let mut around = vec![Vec::new(); edges.len()];
-        for (face_cycles, face) in cycles.iter().zip(0..) {
-            for cycle in face_cycles {
-                let renamed: Vec<u32> =
-                    cycle.iter().map(|h| 2 * old_edges.new[(h / 2) as usize] + h % 2).collect();
-                renamed.iter().for_each(|h| around[(h / 2) as usize].push(face));
+        let mut renamed = Vec::new();
+        course.walk(faces.len(), CHUNK, |face| {
+            let (old, sign) = faces[face];
+            for cycle in a.face_loops(old) {
+                renamed.clear();
+                let reversed = sign < 0;
+                renamed.extend(
+                    cycle.map(|h| 2 * old_edges.new[h.edge.index()] + u32::from(h.reversed != reversed)),
+                );
+                if reversed {
+                    renamed.reverse();
+                }
+                renamed.iter().for_each(|h| around[(h / 2) as usize].push(face as u32));
                 loops.push(&renamed);
             }
             face_loops.push(loops.len() as u32);
-        }
-        Self { solid, faces, vertices: vertices.list, edges, loops, face_loops, around }
+        })?;
+        Ok(Self { solid, faces, vertices: vertices.list, edges, loops, face_loops, around })
     }
 
     /// Whether two faces lie in one plane and look the same way.
@@ -182,16 +196,24 @@ impl<'a> OutwardFaces<'a> {
         same_way && a.geometry.is_coplanar(f, g)
     }
 
+    /// No edge disappears, each face keeps its number.
+    fn all_faces(&self) -> (Vec<bool>, Vec<u32>, usize) {
+        let n = self.faces.len();
+        (vec![false; self.edges.len()], (0..n as u32).collect(), n)
+    }
+
     /// Which edges disappear between faces of one plane, and the new number of each face.
-    fn merged_faces(&self) -> (Vec<bool>, Vec<u32>, usize) {
-        let in_one_plane = |around: &Vec<u32>| matches!(around[..], [f, g] if self.in_one_plane(f, g));
-        let mut removed: Vec<bool> = self.around.iter().map(in_one_plane).collect();
+    fn merged_faces(&self, course: &Course) -> Result<(Vec<bool>, Vec<u32>, usize), Cancelled> {
+        let mut removed = Vec::with_capacity(self.edges.len());
+        course.walk(self.edges.len(), CHUNK, |edge| {
+            removed.push(matches!(self.around[edge][..], [f, g] if self.in_one_plane(f, g)));
+        })?;
         let (new_face, n) = self.joined(&removed);
         if merge::keep_folds(&self.loops_of_faces(), &mut removed, &new_face, n) {
             let (new_face, n) = self.joined(&removed);
-            return (removed, new_face, n);
+            return Ok((removed, new_face, n));
         }
-        (removed, new_face, n)
+        Ok((removed, new_face, n))
     }
 
     fn joined(&self, removed: &[bool]) -> (Vec<u32>, usize) {
@@ -223,7 +245,9 @@ impl<'a> OutwardFaces<'a> {
         candidates
     }
 
-    fn finished(&self, merged: Merged, parents: Vec<Vec<Parent>>, points: &Points) -> SolidComplex {
+    fn finished(&self, merged: Merged, new_face: &[u32], n_new_faces: usize) -> SolidComplex {
+        let (parents, pieces) = self.origins(new_face, n_new_faces);
+        let points = self.solid.arrangement.complex().points();
         let at = |v: &u32| points.xyz(self.vertices[*v as usize] as usize);
         let positions: Vec<[f64; 3]> = merged.vertices.iter().map(at).collect();
         let tail = |&h: &u32| merged.edges[(h / 2) as usize][(h % 2) as usize];
@@ -235,7 +259,27 @@ impl<'a> OutwardFaces<'a> {
             loops,
             face_loops: merged.face_loops,
             parents,
+            pieces,
         }
+    }
+
+    /// For each new face its parents, and the first face of the arrangement that is part of it.
+    fn origins(&self, new_face: &[u32], n_new_faces: usize) -> (Vec<Vec<Parent>>, Vec<(FaceId, i8)>) {
+        let mut parents: Vec<Vec<Parent>> = vec![Vec::new(); n_new_faces];
+        // New faces are numbered as their first pieces come.
+        let mut pieces = Vec::with_capacity(n_new_faces);
+        for (&(face, sign), &new) in self.faces.iter().zip(new_face) {
+            if pieces.len() == new as usize {
+                pieces.push((face, sign));
+            }
+            let signed = |p: &Parent| Parent { sign: p.sign * sign, ..*p };
+            parents[new as usize].extend(self.solid.arrangement.parents(face).iter().map(signed));
+        }
+        for list in &mut parents {
+            list.sort_unstable();
+            list.dedup();
+        }
+        (parents, pieces)
     }
 }
 

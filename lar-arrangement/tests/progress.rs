@@ -4,7 +4,10 @@ mod common;
 
 use common::{Random, cuboid};
 use lar_arrangement::planar::{Drawing, PlanarArranger};
-use lar_arrangement::{ArrangementError, Arranger, Cancel, Progress, Stats};
+use lar_arrangement::{
+    Arrangement, ArrangementError, Arranger, BooleanError, Cancel, Detail, Evaluator, Expression, FillRule,
+    Progress, Stats,
+};
 use lar_core::{ChainComplex, Surface};
 use std::num::NonZeroUsize;
 use std::sync::Mutex;
@@ -167,4 +170,58 @@ fn a_request_made_before_stops_at_once() {
     assert_eq!(boxes().run(1, &report, &cancel).unwrap_err().to_string(), "cancelled");
     assert_eq!(needles().run(1, &report, &cancel).unwrap_err(), ArrangementError::Cancelled);
     assert_eq!(*reports.lock().unwrap(), 2);
+}
+
+/// The union of all solids: its surface, under the eyes of a report and a request to stop.
+fn union(a: &Arrangement, report: Report, cancel: &Cancel) -> Result<ChainComplex, BooleanError> {
+    let evaluator = Evaluator::new().progress(report).cancel(cancel);
+    let solid = evaluator.solid(a, &Expression::union_of(a.n_solids()))?;
+    Ok(evaluator.surface(&solid)?.complex)
+}
+
+/// Faces enough for several chunks of each stage.
+fn sphere() -> Arrangement {
+    let sphere = Surface::from_triangles("sphere", &lar_core::icosphere(5));
+    Arranger::new().arrange(&[sphere, cuboid([-0.5; 3], [2.0; 3])]).unwrap()
+}
+
+#[test]
+fn booleans_report_their_stages() {
+    let a = sphere();
+    let seen = Mutex::new(Vec::new());
+    let complex = union(&a, &|p| seen.lock().unwrap().push(p), &Cancel::new()).unwrap();
+    let quiet = a.boolean(&Expression::union_of(2), FillRule::NonZero).unwrap();
+    assert_eq!(complex, quiet.to_complex(Detail::Simplified).complex);
+    let seen = seen.into_inner().unwrap();
+    let mut stages: Vec<&str> = seen.iter().map(|p| p.stage).collect();
+    stages.dedup();
+    assert_eq!(stages, ["cells", "surface", "coplanar faces", "straight edges", "loops", "complex"]);
+    let (of_cells, of_surface) = seen.split_at(seen.iter().position(|p| p.stage == "surface").unwrap());
+    for part in [of_cells, of_surface] {
+        assert!(part.is_sorted_by(|a, b| a.fraction <= b.fraction), "{part:?}");
+        assert_eq!((part[0].fraction, part[part.len() - 1].fraction), (0.0, 1.0));
+    }
+    let chunks = seen.iter().filter(|p| p.stage == "coplanar faces").count();
+    assert!(chunks > 4, "{chunks} reports of one stage");
+}
+
+#[test]
+fn booleans_stop_at_any_report() {
+    let a = sphere();
+    for stop in 0.. {
+        let (cancel, seen) = (Cancel::new(), Mutex::new(0));
+        let report = |_: Progress| {
+            let mut seen = seen.lock().unwrap();
+            if *seen == stop {
+                cancel.request();
+            }
+            *seen += 1;
+        };
+        let done = union(&a, &report, &cancel);
+        let n_seen = seen.into_inner().unwrap();
+        match done {
+            Err(error) => assert_eq!((error, n_seen), (BooleanError::Cancelled, stop + 1)),
+            Ok(_) => return assert!(n_seen <= stop + 1 && stop > 20, "{n_seen} reports, stopped at {stop}"),
+        }
+    }
 }

@@ -193,7 +193,9 @@ fn facts() {
     insta::assert_snapshot!(said.join("\n"));
 }
 
+/// Commands that draw have fewer options in a build without graphics.
 #[test]
+#[cfg(feature = "window")]
 fn help_and_version() {
     let place = Place::new();
     assert_eq!(done(&place, &["--version"]).out, format!("lar {}\n", env!("CARGO_PKG_VERSION")));
@@ -224,6 +226,54 @@ fn three_cubes_prints_the_numbers() {
     let run = Place::new().three_cubes(&[]);
     assert_eq!((run.code, run.err.as_str()), (0, ""));
     insta::assert_snapshot!(run.out);
+}
+
+/// A box with corners (x, y, z) for x in 0 and 1, the heights of its bottom at both ends, and of its top.
+fn slab(text: &mut String, x: [f64; 2], y: [f64; 2], bottom: [f64; 2], top: f64) {
+    use std::fmt::Write as _;
+    let first = text.matches("v ").count();
+    for z in [bottom, [top; 2]] {
+        for (i, j) in [(0, 0), (1, 0), (1, 1), (0, 1)] {
+            writeln!(text, "v {:e} {} {:e}", x[i], y[j], z[i]).expect("a string");
+        }
+    }
+    for face in [[4, 3, 2, 1], [5, 6, 7, 8], [1, 2, 6, 5], [2, 3, 7, 6], [3, 4, 8, 7], [4, 1, 5, 8]] {
+        let [a, b, c, d] = face.map(|v| first + v);
+        writeln!(text, "f {a} {b} {c} {d}").expect("a string");
+    }
+}
+
+/// Three bottoms cross a wall in a triangle of height 2^-56 at z = 1, where numbers are 2^-52 apart: of its exact corners
+/// rounding leaves three on one line.
+#[test]
+fn rounding_is_counted() {
+    let (e, d) = (2f64.powi(-30), 2f64.powi(-27));
+    let mut text = String::new();
+    slab(&mut text, [-1.5, 1.5], [-1.0, 1.0], [1.0; 2], 3.0);
+    slab(&mut text, [-1.0, 1.0], [-1.0, 1.0], [1.0 - e, 1.0 + e], 3.0);
+    slab(&mut text, [d - 1.0, d + 1.0], [-1.0, 1.0], [1.0 - 2.0 * e, 1.0 + 2.0 * e], 3.0);
+    slab(&mut text, [-2.0, 2.0], [0.0, 1.0], [0.0; 2], 2.5);
+    let place = Place::with_cubes();
+    place.write("thin.obj", text);
+    for command in ["arrange", "boolean A", "clean"] {
+        let rounding = |input: &str| -> Value {
+            let output = if command == "arrange" { "" } else { " -o out.obj" };
+            let run = done(&place, &words(&format!("{command} {input}{output} --as-given --json -")));
+            let report: Value = serde_json::from_str(&run.out).unwrap();
+            report["rounding"].clone()
+        };
+        let counts =
+            |value: Value| -> u64 { value.as_object().unwrap().values().map(|n| n.as_u64().unwrap()).sum() };
+        assert_eq!(counts(rounding("a.obj")), 0, "{command}");
+        let found = rounding("thin.obj");
+        let expects_some = command == "arrange";
+        assert_eq!(0 < found["degenerate_triangles"].as_u64().unwrap(), expects_some, "{command}: {found}");
+    }
+    let line = words("boolean A thin.obj --fill even-odd --as-given -o out.obj");
+    let printed = done(&place, &line).out;
+    let said =
+        printed.lines().find_map(|line| line.strip_prefix("after rounding: ")).expect("a line about it");
+    assert!(!said.contains(" 0 degenerate triangles"), "{said}");
 }
 
 /// Results of one Boolean are operands of the next, in every format that surfaces are read from.

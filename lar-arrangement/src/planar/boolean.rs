@@ -100,6 +100,7 @@ impl PlanarArrangement {
     }
 
     /// The faces where an expression over the regions holds. Face 0 is the exterior.
+    /// O(faces · length of the expression).
     ///
     /// # Errors
     /// A region of the expression whose outline is open, or not oriented with a rule that needs it, or that does
@@ -145,7 +146,7 @@ impl PlanarArrangement {
     }
 
     /// The union of some faces as polygons with holes: faces side by side become one, straight edges are in one
-    /// piece. The exterior is left out.
+    /// piece. The exterior is left out. O(size of the arrangement).
     ///
     /// # Panics
     /// When there is no such face.

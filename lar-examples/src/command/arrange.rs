@@ -148,7 +148,7 @@ impl Arrange {
             boundary_squared_zero: boundary_squared_zero(a.complex()),
             euler: a.euler(),
             euler_ok: a.euler() == 0,
-            rounding: Rounding::new(triangles, defects, &volumes[1..]),
+            rounding: Rounding::new(triangles, defects, volumes[1..].iter().copied()),
             volumes,
             inside: (0..a.n_cells()).map(|cell| tables::inside(a, cell).collect()).collect(),
             parents_ok: parents_ok(a, &operands.surfaces),

@@ -4,8 +4,9 @@ use super::input::{Operands, operands};
 use super::report::{Coplanarity, Json, Moves, Operand, Stages, Threads, arrange};
 use super::result::{Counts, Surfaces};
 use crate::CommandError;
+use crate::bar::Bar;
 use crate::output::{check_directory, check_distinct, check_file, write_directory};
-use lar_arrangement::{Arrangement, Detail, Expression, FillRule};
+use lar_arrangement::{Arrangement, Detail, Evaluator, Expression, FillRule};
 use serde::Serialize;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -214,13 +215,17 @@ impl Boolean {
         operands: &Operands,
     ) -> Result<Vec<(Counts, Surfaces)>, CommandError> {
         let detail = if self.keep_fragments { Detail::Fragments } else { Detail::Simplified };
+        let bar = Bar::new();
+        let show = |progress| bar.show(progress);
+        let evaluator = Evaluator::new().fill(self.fill.into()).detail(detail).progress(&show);
+        let volumes = arrangement.volumes();
         let result = |task: &Task<'_>| {
             let before = Instant::now();
-            let solid = arrangement
-                .boolean(&task.expression, self.fill.into())
+            let solid = evaluator
+                .solid(arrangement, &task.expression)
                 .map_err(|source| CommandError::Boolean { file: operands.file_of(&source), source })?;
-            let surfaces = Surfaces::new(&solid, detail, before)?;
-            Ok((Counts::new(&solid, &surfaces), surfaces))
+            let surfaces = Surfaces::new(&solid, &evaluator, before)?;
+            Ok((Counts::new(arrangement, &volumes, &solid, &surfaces), surfaces))
         };
         tasks.iter().map(result).collect()
     }

@@ -5,8 +5,9 @@ use super::input::operands;
 use super::report::{Coplanarity, Json, Moves, Operand, Stages, Threads, arrange};
 use super::result::{Counts, Surfaces};
 use crate::CommandError;
+use crate::bar::Bar;
 use crate::output::{check_distinct, check_file};
-use lar_arrangement::{Arrangement, Detail, Expression, Solid};
+use lar_arrangement::{Arrangement, Detail, Evaluator, Expression, Solid};
 use lar_core::CellId;
 use serde::Serialize;
 use std::io::Write;
@@ -104,17 +105,21 @@ impl Clean {
         let start = Instant::now();
         let (arrangement, _) = arrange(&operands.surfaces, self.threads, self.coplanarity)?;
         let before = Instant::now();
+        let bar = Bar::new();
+        let show = |progress| bar.show(progress);
+        let detail = if self.keep_fragments { Detail::Fragments } else { Detail::Simplified };
+        let evaluator = Evaluator::new().detail(detail).progress(&show);
         let solid = self.solid(&arrangement)?;
         if solid.cells().is_empty() {
             return Err(CommandError::EnclosesNothing { path: self.input.clone() });
         }
-        let detail = if self.keep_fragments { Detail::Fragments } else { Detail::Simplified };
-        let surfaces = Surfaces::new(&solid, detail, before)?;
+        let surfaces = Surfaces::new(&solid, &evaluator, before)?;
+        drop(bar);
         let operation = start.elapsed();
         surfaces.write(&self.output)?;
         let Some(input) = Operand::all(&arrangement, &operands).pop() else { return Ok(()) };
         let report = Report {
-            counts: Counts::new(&solid, &surfaces),
+            counts: Counts::new(&arrangement, &arrangement.volumes(), &solid, &surfaces),
             rule: self.rule,
             input,
             dangling_faces: arrangement.dangling_faces().count(),

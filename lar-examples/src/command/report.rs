@@ -150,12 +150,16 @@ pub(crate) struct Rounding {
 }
 
 impl Rounding {
-    pub(crate) fn new(triangulation: &Triangulation, defects: Defects, volumes: &[f64]) -> Self {
+    pub(crate) fn new(
+        triangulation: &Triangulation,
+        defects: Defects,
+        volumes: impl Iterator<Item = f64>,
+    ) -> Self {
         Self {
             folded_faces: triangulation.fallbacks,
             inverted_triangles: defects.inverted,
             degenerate_triangles: defects.degenerate,
-            flat_cells: volumes.iter().filter(|v| **v <= 0.0).count(),
+            flat_cells: volumes.filter(|volume| *volume <= 0.0).count(),
         }
     }
 

@@ -1,10 +1,11 @@
 //! The surface of a solid as polygons and as triangles, its numbers and its file.
 
 use super::input::is_json;
-use super::report::counted;
+use super::report::{Rounding, counted};
 use crate::CommandError;
-use lar_arrangement::{Detail, Solid, SolidComplex};
+use lar_arrangement::{Arrangement, Evaluator, Solid, SolidComplex};
 use lar_core::{FaceId, MeshFormat, TriangleMesh, write_mesh};
+use lar_triangle::Triangulation;
 use serde::Serialize;
 use std::io::Write;
 use std::path::Path;
@@ -12,8 +13,9 @@ use std::time::{Duration, Instant};
 
 /// A result in both forms, and how long it took to make them.
 pub(crate) struct Surfaces {
-    pub polygons: SolidComplex,
-    pub triangles: TriangleMesh,
+    polygons: SolidComplex,
+    triangulation: Triangulation,
+    triangles: TriangleMesh,
     /// Choice of the cells, and their surface as a complex.
     pub boolean: Duration,
     pub triangulate: Duration,
@@ -21,14 +23,30 @@ pub(crate) struct Surfaces {
 
 impl Surfaces {
     /// The surface of a solid that was being chosen since `before`.
-    pub(crate) fn new(solid: &Solid<'_>, detail: Detail, before: Instant) -> Result<Self, CommandError> {
-        let polygons = solid.to_complex(detail);
+    pub(crate) fn new(
+        solid: &Solid<'_>,
+        evaluator: &Evaluator<'_>,
+        before: Instant,
+    ) -> Result<Self, CommandError> {
+        let polygons =
+            evaluator.surface(solid).map_err(|source| CommandError::Boolean { file: None, source })?;
         let boolean = before.elapsed();
         let before = Instant::now();
+        let triangulation = lar_triangle::triangulate(&polygons.complex)?;
         let faces = (0..).map(|f| (FaceId(f), 1)).take(polygons.n_faces());
-        let triangles =
-            lar_triangle::triangulate(&polygons.complex)?.mesh_of_faces(polygons.complex.points(), faces)?;
-        Ok(Self { polygons, triangles, boolean, triangulate: before.elapsed() })
+        let triangles = triangulation.mesh_of_faces(polygons.complex.points(), faces)?;
+        Ok(Self { polygons, triangulation, triangles, boolean, triangulate: before.elapsed() })
+    }
+
+    /// What rounding did to it. `volumes` are those of the arrangement's cells.
+    fn rounding(&self, arrangement: &Arrangement, volumes: &[f64], solid: &Solid<'_>) -> Rounding {
+        let normal = |face| {
+            let (piece, sign) = self.polygons.piece(face);
+            arrangement.normal(piece).map(|x| x * f64::from(sign))
+        };
+        let defects = self.triangulation.defects(self.polygons.complex.points(), normal);
+        let bounded = solid.cells().iter().filter(|cell| cell.0 != 0);
+        Rounding::new(&self.triangulation, defects, bounded.map(|cell| volumes[cell.index()]))
     }
 
     /// Polygons as a chain complex when the name ends in `.json`, else triangles in the format of the extension, OBJ
@@ -64,10 +82,17 @@ pub(crate) struct Counts {
     euler: i64,
     /// The cells of the arrangement that make up the result.
     cells: Vec<u32>,
+    rounding: Rounding,
 }
 
 impl Counts {
-    pub(crate) fn new(solid: &Solid<'_>, surfaces: &Surfaces) -> Self {
+    /// `volumes` are those of the arrangement's cells.
+    pub(crate) fn new(
+        arrangement: &Arrangement,
+        volumes: &[f64],
+        solid: &Solid<'_>,
+        surfaces: &Surfaces,
+    ) -> Self {
         let polygons = &surfaces.polygons;
         Self {
             vertices: polygons.complex.n_cells(0),
@@ -82,10 +107,11 @@ impl Counts {
             bounded: solid.is_bounded(),
             euler: polygons.euler(),
             cells: solid.cells().iter().map(|c| c.0).collect(),
+            rounding: surfaces.rounding(arrangement, volumes, solid),
         }
     }
 
-    /// Two lines, the first after `what` and a colon.
+    /// Two lines, the first after `what` and a colon, and one about rounding when it did anything.
     pub(crate) fn print(&self, what: &str, out: &mut dyn Write) -> Result<(), CommandError> {
         let counts = [
             counted(self.vertices, "vertex"),
@@ -98,6 +124,6 @@ impl Counts {
         let volume = self.volume.map_or("unbounded".to_owned(), |v| format!("volume {v}"));
         let closed = if self.closed { "closed" } else { "NOT CLOSED" };
         writeln!(out, "{volume}, area {}, {closed}, Euler characteristic {}", self.area, self.euler)?;
-        Ok(())
+        self.rounding.line().map_or(Ok(()), |line| Ok(writeln!(out, "{line}")?))
     }
 }
