@@ -43,6 +43,3 @@ pub mod three_cubes;
 
 pub use error::CommandError;
 pub use program::main;
-
-#[cfg(all(doctest, feature = "viewer"))]
-mod pages;

@@ -113,7 +113,7 @@ fn the_collection() {
     }
 }
 
-/// Each figure has a page with its pictures and the numbers that it prints.
+/// Each figure has a page with its pictures, a short program, and the numbers that it prints.
 #[test]
 fn pages() {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/figures");
@@ -123,7 +123,9 @@ fn pages() {
         let page = std::fs::read_to_string(docs.join(format!("{name}.md"))).unwrap();
         let drawn = entry.draw(&Request::default()).unwrap();
         assert!(page.contains(&format!("```text\n{}```\n", drawn.numbers)), "{name}: {}", drawn.numbers);
-        assert!(page.contains("```rust\n"), "{name} has a program");
+        let program =
+            page.split("```rust\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap_or_default();
+        assert!((10..=30).contains(&program.lines().count()), "{name} has a program of 10 to 30 lines");
         assert!(index.contains(&format!("({name}.md)")), "{name} in the index");
         for figure in drawn.figures {
             let file = format!("{}.png", figure.name);

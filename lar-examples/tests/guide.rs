@@ -26,7 +26,8 @@ cargo() {
     program=lar
     if [ "$1" = --bin ]; then program=$2; shift 2; fi
     if [ "$1" = -- ]; then shift; fi
-    if [ "$program" = lar ]; then lar "$@"; else "$PROGRAMS/$program" "$@"; fi
+    # shellcheck disable=SC2086
+    if [ "$program" = lar ]; then lar "$@"; else "$PROGRAMS/$program" "$@" ${SIZE-}; fi
 }
 "#;
 
@@ -46,9 +47,8 @@ fn pages(directory: &str) -> Vec<PathBuf> {
     found
 }
 
-fn all_pages() -> Vec<PathBuf> {
-    ["", "docs", "docs/guide", "docs/decisions"].iter().flat_map(|d| pages(d)).collect()
-}
+/// Directories of the book.
+const BOOK: [&str; 4] = ["docs", "docs/guide", "docs/figures", "docs/decisions"];
 
 fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
@@ -60,9 +60,9 @@ fn blocks(text: &str, language: &str) -> Vec<String> {
     text.split(&fence).skip(1).map(|rest| rest.split("```").next().unwrap_or_default().to_owned()).collect()
 }
 
-/// Runs the commands of a page in a directory with the files that pages speak of.
+/// Runs the commands of a page in a directory with the files that pages speak of; pictures have a size if one is given.
 #[track_caller]
-fn run(page: &Path) {
+fn run(page: &Path, size: &str) {
     let commands = blocks(&read(page), "sh").join("\n");
     if commands.is_empty() {
         return;
@@ -72,7 +72,8 @@ fn run(page: &Path) {
     place.write("cross.seg", "0 0 2 2\n0 2 2 0\n");
     let programs = Path::new(env!("CARGO_BIN_EXE_lar")).parent().expect("a directory");
     let script = format!("{PRELUDE}{commands}");
-    let run = place.run(Command::new("sh").args(["-c", &script]).env("PROGRAMS", programs));
+    let mut shell = Command::new("sh");
+    let run = place.run(shell.args(["-c", &script]).env("PROGRAMS", programs).env("SIZE", size));
     // Without a graphics adapter the pictures are left out, unless there must be one.
     let has_no_adapter = run.code == 3 && std::env::var_os("LAR_REQUIRE_GPU").is_none();
     assert!(run.code == 0 || has_no_adapter, "{}:\n{}\n{}", page.display(), run.out, run.err);
@@ -80,23 +81,37 @@ fn run(page: &Path) {
 
 #[test]
 fn commands_of_the_readme() {
-    run(&workspace().join("README.md"));
+    run(&workspace().join("README.md"), "");
 }
 
 #[test]
 fn commands_of_the_guide() {
-    pages("docs/guide").iter().for_each(|page| run(page));
+    run(&workspace().join("docs/README.md"), "");
+    pages("docs/guide").iter().for_each(|page| run(page, ""));
+}
+
+/// Small: what they look like is tested in figures.rs.
+#[test]
+fn commands_of_the_figures() {
+    pages("docs/figures").iter().for_each(|page| run(page, "--size 120x100"));
 }
 
 #[test]
 fn links_lead_somewhere() {
     let mut broken = Vec::new();
-    for page in all_pages() {
+    let docs = workspace().join("docs");
+    for page in ["", BOOK[0], BOOK[1], BOOK[2], BOOK[3]].iter().flat_map(|d| pages(d)) {
         let text = read(&page);
         let prose: String = text.split("```").step_by(2).collect();
         for link in prose.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next()) {
-            let is_local = !link.is_empty() && !link.contains("://") && !link.starts_with("mailto:");
-            if is_local && !page.parent().expect("a directory").join(link).exists() {
+            if link.is_empty() || link.contains("://") || link.starts_with("mailto:") {
+                continue;
+            }
+            let target = page.parent().expect("a directory").join(link).canonicalize();
+            // The book has what is in its own directory, nothing else, and calls README.md index.html.
+            let in_book = |target: &Path| target.starts_with(&docs) && !target.ends_with("README.md");
+            let is_found = |target: PathBuf| !page.starts_with(&docs) || in_book(&target);
+            if !target.is_ok_and(is_found) {
                 broken.push(format!("{}: {link}", page.display()));
             }
         }
@@ -107,12 +122,15 @@ fn links_lead_somewhere() {
 #[test]
 fn pages_are_in_the_contents_and_their_programs_are_run() {
     let root = workspace();
-    let (contents, tested) =
-        (read(&root.join("docs/SUMMARY.md")), read(&root.join("lar-examples/src/guide.rs")));
-    for page in ["docs", "docs/guide", "docs/decisions"].iter().flat_map(|d| pages(d)) {
+    let [contents, decisions] =
+        ["SUMMARY.md", "decisions.md"].map(|file| read(&root.join("docs").join(file)));
+    let tested = read(&root.join("lar-examples/src/guide.rs"));
+    for page in BOOK.iter().flat_map(|d| pages(d)) {
         let path = page.strip_prefix(&root).expect("a page of the workspace").display().to_string();
-        let listed = contents.contains(&format!("({})", path.trim_start_matches("docs/")));
-        assert!(listed || path == "docs/SUMMARY.md", "{path} is not in docs/SUMMARY.md");
+        let entry = format!("({})", path.trim_start_matches("docs/"));
+        assert!(contents.contains(&entry) || path == "docs/SUMMARY.md", "{path} is not in docs/SUMMARY.md");
+        let is_decision = path.starts_with("docs/decisions/");
+        assert!(!is_decision || decisions.contains(&entry), "{path} is not in docs/decisions.md");
         let has_programs = !blocks(&read(&page), "rust").is_empty();
         assert!(!has_programs || tested.contains(&path), "{path} has programs, but is not in src/guide.rs");
     }
