@@ -93,14 +93,18 @@ fn commands_of_the_guide() {
 /// Small: what they look like is tested in figures.rs.
 #[test]
 fn commands_of_the_figures() {
-    pages("docs/figures").iter().for_each(|page| run(page, "--size 120x100"));
+    for page in pages("docs/figures") {
+        run(&page, if page.ends_with("README.md") { "--small --size 120x100" } else { "--size 120x100" });
+    }
 }
 
 #[test]
 fn links_lead_somewhere() {
     let mut broken = Vec::new();
     let docs = workspace().join("docs");
-    for page in ["", BOOK[0], BOOK[1], BOOK[2], BOOK[3]].iter().flat_map(|d| pages(d)) {
+    let all = ["", BOOK[0], BOOK[1], BOOK[2], BOOK[3]].iter().flat_map(|d| pages(d));
+    // The contents are checked below; mdbook follows their links itself.
+    for page in all.filter(|page| !page.ends_with("SUMMARY.md")) {
         let text = read(&page);
         let prose: String = text.split("```").step_by(2).collect();
         for link in prose.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next()) {
