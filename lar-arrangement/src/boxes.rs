@@ -1,6 +1,6 @@
 //! Broad phase: a tree of boxes over points in Z-order, eight children a node, built in bulk.
 
-use crate::counting::sorted_by_place;
+use crate::counting::sorted_numbers;
 use crate::parallel;
 use crate::progress::{Cancelled, Course};
 use std::cmp::Ordering;
@@ -79,21 +79,14 @@ pub(crate) fn z_order<const D: usize>(n: usize, box_of: impl Fn(u32) -> Aabb<D> 
         (0..D).fold(0, |key, k| key | spread::<D>(cell(k)) << k)
     };
     // The upper half of the key and the number together; what is below decides for few.
-    let upper = parallel::map_light(n, |i| (key(i as u32) >> (D * BITS - 32)) << 32 | i as u64);
-    // First by as many squares as hold a few boxes each.
-    let bits = (n / 4).max(2).ilog2().min(16);
-    let (offsets, mut upper) = sorted_by_place(1 << bits, &upper, |x| (x >> (64 - bits)) as usize);
-    parallel::sort_stretches(&mut upper, &offsets, Ord::cmp);
-    let mut order = parallel::map_light(n, |i| upper[i] as u32);
-    let mut begin = 0;
-    for same in upper.chunk_by(|a, b| a >> 32 == b >> 32) {
-        let end = begin + same.len();
-        if same.len() > 1 {
-            order[begin..end].sort_unstable_by_key(|&i| (key(i), i));
+    let upper = |i: usize| (key(i as u32) >> (D * BITS - 32)) << 32 | i as u64;
+    let settle = |sorted: &mut [u64]| {
+        for same in sorted.chunk_by_mut(|a, b| a >> 32 == b >> 32).filter(|same| same.len() > 1) {
+            same.sort_unstable_by_key(|&x| (key(x as u32), x));
         }
-        begin = end;
-    }
-    order
+    };
+    let sorted = sorted_numbers(n, 64, upper, settle);
+    parallel::map_light(n, |i| sorted[i] as u32)
 }
 
 /// Number of items in a block.

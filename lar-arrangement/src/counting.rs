@@ -1,5 +1,7 @@
 //! Counting sorts: items to places that are known, in their order.
 
+use crate::parallel;
+
 /// Where each of some stretches begins when they have these lengths and lie one after the other, and where the last
 /// one ends. Lengths add up to less than 2^32.
 pub(crate) fn offsets(lengths: impl ExactSizeIterator<Item = u32>) -> Vec<u32> {
@@ -19,16 +21,93 @@ pub(crate) fn sorted_by_place<T: Copy>(
     items: &[T],
     place: impl Fn(&T) -> usize,
 ) -> (Vec<u32>, Vec<T>) {
+    let mut sorted = items.to_vec();
+    let offsets = sort_by_place(n_places, items, place, &mut sorted);
+    (offsets, sorted)
+}
+
+/// Puts the items by place, those of one place in their order; returns where each place begins.
+fn sort_by_place<T: Copy>(
+    n_places: usize,
+    items: &[T],
+    place: impl Fn(&T) -> usize,
+    sorted: &mut [T],
+) -> Vec<u32> {
     let mut lengths = vec![0u32; n_places];
     items.iter().for_each(|item| lengths[place(item)] += 1);
     let offsets = offsets(lengths.iter().copied());
     let mut fill = lengths;
     fill.copy_from_slice(&offsets[..n_places]);
-    let mut sorted = items.to_vec();
     for item in items {
         let at = &mut fill[place(item)];
         sorted[*at as usize] = *item;
         *at += 1;
     }
-    (offsets, sorted)
+    offsets
+}
+
+/// So many numbers are sorted by their highest bits at a time.
+const CHUNK: usize = 1 << 15;
+
+/// Sorts the distinct numbers of 0..n, of so many bits. Chunks are sorted by the highest
+/// bits, then what has these in common is brought together and sorted further: O(n) when numbers are spread evenly, and
+/// all of it in caches. Such a part of the result is given to `settle`, which may change the order of numbers that
+/// differ only in lower bits.
+pub(crate) fn sorted_numbers(
+    n: usize,
+    bits: u32,
+    number: impl Fn(usize) -> u64 + Sync + Send,
+    settle: impl Fn(&mut [u64]) + Sync + Send,
+) -> Vec<u64> {
+    let (n_chunks, range) = parallel::chunks(n, CHUNK);
+    let upper = if n_chunks < 2 { 0 } else { (n >> 12).ilog2().min(8) };
+    let n_places = 1 << upper;
+    let chunks = parallel::map(n_chunks, |chunk| {
+        let numbers: Vec<u64> = range(chunk).map(&number).collect();
+        match upper {
+            0 => (vec![0, numbers.len() as u32], numbers),
+            _ => sorted_by_place(n_places, &numbers, |x| (x >> (bits - upper)) as usize),
+        }
+    });
+    let of_chunk = |chunk: usize, place: usize| {
+        let (offsets, numbers) = &chunks[chunk];
+        &numbers[offsets[place] as usize..offsets[place + 1] as usize]
+    };
+    let length = |place| (0..n_chunks).map(|chunk| of_chunk(chunk, place).len()).sum();
+    let lengths: Vec<usize> = (0..n_places).map(length).collect();
+    let mut sorted = vec![0; lengths.iter().sum()];
+    let parts = parallel::cut(&mut sorted, lengths.into_iter());
+    parallel::each(parts.into_iter().enumerate().collect(), |(place, part)| {
+        let numbers: Vec<&[u64]> = (0..n_chunks).map(|chunk| of_chunk(chunk, place)).collect();
+        sort_below(&numbers.concat(), bits - upper, part);
+        settle(part);
+    });
+    sorted
+}
+
+/// Sorts numbers that have all but so many bits in common: first by as many places as hold a few each.
+fn sort_below(numbers: &[u64], bits: u32, sorted: &mut [u64]) {
+    let upper = (numbers.len() / 4).max(2).ilog2().min(16);
+    let mask = (1 << upper) - 1;
+    let place = |x: &u64| (x >> (bits - upper)) as usize & mask;
+    let offsets = sort_by_place(1 << upper, numbers, place, sorted);
+    parallel::sort_stretches(sorted, &offsets, Ord::cmp);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(16))]
+        #[test]
+        fn numbers_are_sorted(upper in prop::collection::vec(0u64..1 << 20, 0..50), shift in 0u32..24) {
+            let n = 1000 * upper.len();
+            let number = |i: usize| upper[i / 1000] << shift << 20 | i as u64;
+            let mut expected: Vec<u64> = (0..n).map(number).collect();
+            expected.sort_unstable();
+            prop_assert_eq!(sorted_numbers(n, 64, number, |_| ()), expected);
+        }
+    }
 }

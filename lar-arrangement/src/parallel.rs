@@ -2,7 +2,9 @@
 
 use crate::error::ArrangementError;
 #[cfg(feature = "rayon")]
-use std::cell::Cell;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+#[cfg(feature = "rayon")]
+use std::cell::{Cell, OnceCell};
 use std::cmp::Ordering;
 use std::num::NonZeroUsize;
 #[cfg(feature = "rayon")]
@@ -14,31 +16,78 @@ thread_local! {
     static ALONE: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Runs `f` with at most so many threads; one is the caller's.
+/// At most so many threads for an operation of several steps. They are started for the first step that is worth it.
+pub(crate) struct Team {
+    #[cfg(feature = "rayon")]
+    threads: Option<NonZeroUsize>,
+    #[cfg(feature = "rayon")]
+    pool: OnceCell<ThreadPool>,
+}
+
+/// A step that handles fewer things (segments, pairs, edges) than this takes no longer on one thread.
 #[cfg(feature = "rayon")]
+const WORTH_THREADS: usize = 1 << 15;
+
+impl Team {
+    #[cfg(feature = "rayon")]
+    pub(crate) fn new(threads: Option<NonZeroUsize>) -> Self {
+        Self { threads, pool: OnceCell::new() }
+    }
+
+    /// There is one.
+    #[cfg(not(feature = "rayon"))]
+    pub(crate) fn new(_: Option<NonZeroUsize>) -> Self {
+        Self {}
+    }
+
+    /// Runs a step that handles so many things: alone on the caller's thread when they are few.
+    #[cfg(feature = "rayon")]
+    pub(crate) fn work<R: Send>(
+        &self,
+        size: usize,
+        f: impl FnOnce() -> R + Send,
+    ) -> Result<R, ArrangementError> {
+        match self.threads {
+            _ if size < WORTH_THREADS => Ok(alone(f)),
+            None => Ok(f()),
+            Some(NonZeroUsize::MIN) => Ok(alone(f)),
+            Some(threads) => Ok(self.pool(threads.get())?.install(f)),
+        }
+    }
+
+    /// Runs a step; there is one thread.
+    #[cfg(not(feature = "rayon"))]
+    pub(crate) fn work<R>(&self, _: usize, f: impl FnOnce() -> R) -> Result<R, ArrangementError> {
+        Ok(f())
+    }
+
+    #[cfg(feature = "rayon")]
+    fn pool(&self, threads: usize) -> Result<&ThreadPool, ArrangementError> {
+        if let Some(pool) = self.pool.get() {
+            return Ok(pool);
+        }
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+        let pool = pool.map_err(|e| ArrangementError::Threads { threads, reason: e.to_string() })?;
+        Ok(self.pool.get_or_init(|| pool))
+    }
+}
+
+/// Runs `f` on the caller's thread.
+#[cfg(feature = "rayon")]
+fn alone<R>(f: impl FnOnce() -> R) -> R {
+    let before = ALONE.replace(true);
+    // A panic must not leave the caller's thread alone.
+    let done = catch_unwind(AssertUnwindSafe(f));
+    ALONE.set(before);
+    done.unwrap_or_else(|panic| resume_unwind(panic))
+}
+
+/// Runs `f` with at most so many threads; one is the caller's.
 pub(crate) fn with_threads<R: Send>(
     threads: Option<NonZeroUsize>,
     f: impl FnOnce() -> R + Send,
 ) -> Result<R, ArrangementError> {
-    let Some(threads) = threads else { return Ok(f()) };
-    if threads.get() == 1 {
-        let before = ALONE.replace(true);
-        // A panic must not leave the caller's thread alone.
-        let done = catch_unwind(AssertUnwindSafe(f));
-        ALONE.set(before);
-        return done.map_err(|panic| resume_unwind(panic));
-    }
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads.get())
-        .build()
-        .map_err(|e| ArrangementError::Threads { threads: threads.get(), reason: e.to_string() })?;
-    Ok(pool.install(f))
-}
-
-/// Runs `f`; there is one thread.
-#[cfg(not(feature = "rayon"))]
-pub(crate) fn with_threads<R>(_: Option<NonZeroUsize>, f: impl FnOnce() -> R) -> Result<R, ArrangementError> {
-    Ok(f())
+    Team::new(threads).work(usize::MAX, f)
 }
 
 /// Number of threads at work. What depends on it must not show in any result.
@@ -155,6 +204,34 @@ pub(crate) fn cut<T>(items: &mut [T], lengths: impl Iterator<Item = usize>) -> V
         part
     };
     lengths.map(&mut part).collect()
+}
+
+/// Calls `f` with 0..n in any order.
+pub(crate) fn for_each(n: usize, f: impl Fn(usize) + Sync + Send) {
+    // A list of nothing takes no memory.
+    map_light(n, f);
+}
+
+/// Applies `f` to chunks of some items, each with the place that it begins at.
+pub(crate) fn each_chunk<T: Send>(items: &mut [T], f: impl Fn(usize, &mut [T]) + Sync + Send) {
+    const SIZE: usize = 1 << 14;
+    let chunks = (0..).step_by(SIZE).zip(items.chunks_mut(SIZE));
+    each(chunks.collect(), |(begin, chunk)| f(begin, chunk));
+}
+
+/// The items of some lists, list after list.
+pub(crate) fn concat<T: Copy + Default + Send + Sync>(lists: &[Vec<T>]) -> Vec<T> {
+    let mut all = vec![T::default(); lists.iter().map(Vec::len).sum()];
+    let parts = cut(&mut all, lists.iter().map(Vec::len));
+    each(parts.into_iter().zip(lists).collect(), |(part, list)| part.copy_from_slice(list));
+    all
+}
+
+/// The numbers below n that are to be kept, ascending.
+pub(crate) fn select(n: usize, keep: impl Fn(u32) -> bool + Sync + Send) -> Vec<u32> {
+    let (n_chunks, range) = chunks(n, 1 << 14);
+    let kept = |i| range(i).map(|x| x as u32).filter(|&x| keep(x)).collect();
+    concat(&map(n_chunks, kept))
 }
 
 /// The ranges of at most `size` that make up 0..n.

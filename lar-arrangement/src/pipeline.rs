@@ -530,8 +530,15 @@ fn positions(soup: &Soup, vertices: &[crate::kernel::Vertex]) -> Points {
 }
 
 pub(crate) fn boundary_1(n_vertices: usize, edges: Vec<[u32; 2]>) -> lar_core::Operator {
-    let signs = [-1, 1].repeat(edges.len());
-    ChainComplex::operator_from_columns(n_vertices, Cells::uniform(2, edges.into_flattened()), signs)
+    let (mut offsets, mut signs) = (vec![0; edges.len() + 1], vec![0; 2 * edges.len()]);
+    parallel::each_chunk(&mut offsets, |begin, part| {
+        part.iter_mut().zip((2 * begin as u32..).step_by(2)).for_each(|(to, offset)| *to = offset);
+    });
+    parallel::each_chunk(&mut signs, |_, part| {
+        part.chunks_exact_mut(2).for_each(|pair| pair.copy_from_slice(&[-1, 1]));
+    });
+    let columns = Cells::from_parts(offsets, edges.into_flattened());
+    ChainComplex::operator_from_columns(n_vertices, columns, signs)
 }
 
 pub(crate) fn boundary_2(n_edges: usize, faces: &Merged) -> lar_core::Operator {

@@ -10,6 +10,7 @@
 //!     ── h ──────> v        the wedge between them is the face's corner
 //! ```
 
+use crate::parallel;
 use crate::union_find::UnionFind;
 use lar_core::Cells;
 use std::cmp::Ordering;
@@ -149,11 +150,9 @@ impl Subdivision {
         self.cycles.of[half_edge as usize] != self.cycles.of[(half_edge ^ 1) as usize]
     }
 
-    /// Number of edges with a face on one side and another face on the other.
-    pub(crate) fn n_boundary_edges(&self, face: usize) -> u32 {
-        let cycles = self.cycles_of_face[face].iter();
-        let count = |&c: &u32| self.cycle(c).iter().filter(|&&h| self.is_boundary(h)).count() as u32;
-        cycles.map(count).sum()
+    /// The edges with one face on both sides.
+    pub(crate) fn dangling_edges(&self) -> Vec<u32> {
+        parallel::select(self.cycles.of.len() / 2, |edge| !self.is_boundary(2 * edge))
     }
 
     /// The face on the left of a half-edge.

@@ -34,8 +34,10 @@ pub(crate) fn assemble(
     let faces = Faces::new(&edges.ends, subdivision);
     let Edges { mut ends, edge_at, runs, run_of: mut carrier_of } = edges;
     let n_edges = ends.len();
-    carrier_of.iter_mut().for_each(|run| *run = runs[*run as usize].carrier);
-    ends.iter_mut().for_each(|ends| ends.sort_unstable());
+    parallel::each_chunk(&mut carrier_of, |_, part| {
+        part.iter_mut().for_each(|run| *run = runs[*run as usize].carrier);
+    });
+    parallel::each_chunk(&mut ends, |_, part| part.iter_mut().for_each(|ends| ends.sort_unstable()));
     let (boundary_1, boundary_2) = parallel::join(
         || boundary_1(points.len(), ends),
         || ChainComplex::operator_from_columns(n_edges, faces.columns, faces.signs),
@@ -100,8 +102,8 @@ impl Faces {
         let loops = offsets(lengths);
         let face_loops = subdivision.cycles_of_face.offsets();
         let n_faces = subdivision.n_faces();
-        let sizes = parallel::map_light(n_faces, |face| subdivision.n_boundary_edges(face));
-        let columns = offsets(sizes.into_iter());
+        let columns = columns(&subdivision, &loops);
+        let turned = Turned::new(ends);
         let mut half_edges = vec![0; loops[loops.len() - 1] as usize];
         let mut rows = vec![0; columns[n_faces] as usize];
         let mut signs = vec![0; rows.len()];
@@ -115,7 +117,7 @@ impl Faces {
         parallel::each(parts.enumerate().collect(), |(chunk, ((half_edges, rows), signs))| {
             let mut part = Part { half_edges, rows, signs };
             range(chunk).for_each(|face| {
-                part.push_face(ends, &subdivision, face, (columns[face + 1] - columns[face]) as usize);
+                part.push_face(&turned, &subdivision, face, (columns[face + 1] - columns[face]) as usize);
             });
         });
         let (face_loops, _) = subdivision.cycles_of_face.into_parts();
@@ -128,6 +130,41 @@ impl Faces {
     }
 }
 
+/// Where the columns of ∂2 begin: every edge of a face's loops is in its column once, but for those with the face on
+/// both sides.
+fn columns(subdivision: &Subdivision, loops: &[u32]) -> Vec<u32> {
+    let face_loops = subdivision.cycles_of_face.offsets();
+    let begin = |face: usize| loops[face_loops[face] as usize];
+    let mut lengths = parallel::map_light(subdivision.n_faces(), |face| begin(face + 1) - begin(face));
+    for edge in subdivision.dangling_edges() {
+        lengths[subdivision.face(2 * edge) as usize] -= 2;
+    }
+    offsets(lengths.into_iter())
+}
+
+/// Which edges lead along their carriers from the larger vertex to the smaller: a bit each, which stay in the
+/// processor's cache.
+struct Turned {
+    bits: Vec<u64>,
+    n_edges: usize,
+}
+
+impl Turned {
+    fn new(ends: &[[u32; 2]]) -> Self {
+        let word = |i: usize| {
+            let of_word = &ends[64 * i..(64 * i + 64).min(ends.len())];
+            of_word.iter().rev().fold(0, |bits, [a, b]| bits << 1 | u64::from(a > b))
+        };
+        Self { bits: parallel::map_light(ends.len().div_ceil(64), word), n_edges: ends.len() }
+    }
+
+    /// The half-edge along the edge or back for one along the carrier or back.
+    fn half_edge(&self, h: u32) -> u32 {
+        let edge = h / 2;
+        h ^ (self.bits[edge as usize / 64] >> (edge % 64) & 1) as u32
+    }
+}
+
 /// What is not yet filled in of the loops of some faces and their columns of ∂2.
 struct Part<'a> {
     half_edges: &'a mut [u32],
@@ -137,26 +174,20 @@ struct Part<'a> {
 
 impl Part<'_> {
     /// Half-edges lead along the carrier or back; those of a loop lead from the smaller vertex to the larger or back.
-    fn push_face(&mut self, ends: &[[u32; 2]], subdivision: &Subdivision, face: usize, size: usize) {
-        let turned = |h: u32| {
-            let [a, b] = ends[(h / 2) as usize];
-            if a < b { h } else { h ^ 1 }
-        };
-        let column = take(&mut self.rows, size);
-        let mut next = column.iter_mut();
-        for &cycle in &subdivision.cycles_of_face[face] {
-            let half_edges = subdivision.cycle(cycle);
-            let to = take(&mut self.half_edges, half_edges.len());
-            for (to, &h) in to.iter_mut().zip(half_edges) {
-                *to = turned(h);
-                if subdivision.is_boundary(h)
-                    && let Some(next) = next.next()
-                {
-                    *next = *to;
-                }
-            }
+    fn push_face(&mut self, turned: &Turned, subdivision: &Subdivision, face: usize, size: usize) {
+        let cycles = subdivision.cycles_of_face[face].iter().map(|&cycle| subdivision.cycle(cycle));
+        let all = take(&mut self.half_edges, cycles.clone().map(<[u32]>::len).sum());
+        for (to, &h) in all.iter_mut().zip(cycles.clone().flatten()) {
+            *to = turned.half_edge(h);
         }
-        sort(column, 2 * ends.len());
+        let column = take(&mut self.rows, size);
+        if column.len() == all.len() {
+            column.copy_from_slice(all);
+        } else {
+            let boundary = all.iter().zip(cycles.flatten()).filter(|(_, h)| subdivision.is_boundary(**h));
+            column.iter_mut().zip(boundary).for_each(|(to, (h, _))| *to = *h);
+        }
+        sort(column, 2 * turned.n_edges);
         let signs = take(&mut self.signs, column.len());
         for (h, sign) in column.iter_mut().zip(signs) {
             *sign = if *h % 2 == 0 { 1 } else { -1 };

@@ -41,6 +41,12 @@ impl Bundles {
     pub(crate) fn of_fans(carriers: &Carriers) -> Self {
         let mut out = Self { of: vec![NO_GROUP; carriers.ends.len()], n: 0, at: FxHashMap::default() };
         let mut n_ends = vec![0; carriers.points.len()];
+        // Members have no fewer ends than carriers, and theirs lie side by side in memory.
+        carriers.members.iter().flat_map(|member| member.ends).for_each(|p| n_ends[p as usize] += 1);
+        if n_ends.iter().all(|&n| n < LARGE) {
+            return out;
+        }
+        n_ends.fill(0);
         carriers.ends.as_flattened().iter().for_each(|&p| n_ends[p as usize] += 1);
         for (ends, carrier) in carriers.ends.iter().zip(0..) {
             if let Some(&at) = ends.iter().find(|&&p| n_ends[p as usize] >= LARGE) {

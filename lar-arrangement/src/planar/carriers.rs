@@ -6,12 +6,14 @@
 //! order of integers.
 
 use crate::boxes::{Aabb, z_order};
-use crate::counting::sorted_by_place;
+use crate::counting::sorted_numbers;
 use crate::kernel::Sign;
 use crate::parallel;
 use crate::planar::input::Drawing;
 use crate::planar::points::unify;
 use std::cmp::Ordering;
+use std::ops::Range;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// A segment of the input on the grid, as a stretch of a carrier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,23 +57,24 @@ impl Carriers {
         let order = z_order(lines.first.len(), |i| {
             Aabb::around(lines.ends[lines.first[i as usize] as usize].map(place))
         });
-        let first: Vec<u32> = order.iter().map(|&i| lines.first[i as usize]).collect();
-        let mut number = vec![0; segments.len()];
-        for (&input, carrier) in first.iter().zip(0..) {
-            number[input as usize] = carrier;
-        }
+        let first = parallel::map_light(order.len(), |i| lines.first[order[i] as usize]);
+        let number = parallel::map_light(segments.len(), |_| AtomicU32::new(0));
+        parallel::for_each(first.len(), |i| number[first[i] as usize].store(i as u32, Relaxed));
+        let number = |input: u32| number[input as usize].load(Relaxed);
         let ends = parallel::map_light(first.len(), |i| lines.ends[first[i] as usize]);
         let member = |input: usize| {
             let Segment { ends, reversed, .. } = segments[input];
-            Member { input: input as u32, carrier: number[lines.of[input] as usize], ends, reversed }
+            Member { input: input as u32, carrier: number(lines.of[input]), ends, reversed }
         };
         let mut members = parallel::map_light(segments.len(), member);
-        members.retain(|member| member.ends[0] != member.ends[1]);
+        if lines.n_with_length < members.len() {
+            members.retain(|member| member.ends[0] != member.ends[1]);
+        }
         Self {
             positions: parallel::map_light(ends.len(), |i| ends[i].map(|p| points[p as usize])),
             ends,
-            rank: parallel::map_light(first.len(), |i| lines.rank[first[i] as usize]),
-            stops: lines.stops.iter().map(|&(input, p)| (number[input as usize], p)).collect(),
+            rank: parallel::map_light(first.len(), |i| lines.rank[first[i] as usize].load(Relaxed)),
+            stops: lines.stops.iter().map(|&(input, p)| (number(input), p)).collect(),
             members,
             points,
         }
@@ -101,31 +104,91 @@ pub(crate) fn turn(a: [i64; 2], b: [i64; 2]) -> Sign {
     Sign::from(cross(a, b))
 }
 
-/// The numbers of the segments with a length, by slope and number.
-fn by_slope(segments: &[Segment]) -> Vec<u32> {
-    const BITS: u32 = 31;
-    const FINEST: f64 = (1u64 << 30) as f64;
-    let number = |x: u64| x as u32 & (u32::MAX >> 1);
-    // One of 2^32 sectors of directions, from −2 to 2 in all. Every step rises with the slope.
-    let sector = |slope: f64| {
-        let x = if slope.abs() <= 1.0 { slope } else { 2f64.copysign(slope) - 1.0 / slope };
-        ((x + 2.0) * FINEST) as u64
-    };
-    let mut keyed = Vec::with_capacity(segments.len());
-    let with_length = segments.iter().zip(0..).filter(|(s, _)| !s.slope.is_nan());
-    keyed.extend(with_length.map(|(s, i)| sector(s.slope) << BITS | i));
-    // First by as many sectors as hold a few segments each; the last is that of vertical ones.
-    let bits = (keyed.len() / 4).max(1).ilog2().min(16);
-    let (offsets, mut keyed) = sorted_by_place((1 << bits) + 1, &keyed, |x| (x >> (63 - bits)) as usize);
-    parallel::sort_stretches(&mut keyed, &offsets, Ord::cmp);
-    let mut near = Vec::new();
-    for same in keyed.chunk_by_mut(|a, b| a >> BITS == b >> BITS).filter(|same| same.len() > 1) {
-        near.clear();
-        near.extend(same.iter().map(|&x| (segments[number(x) as usize].slope, x)));
-        parallel::sort_distinct_by(&mut near, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        same.iter_mut().zip(&near).for_each(|(to, &(_, x))| *to = x);
+/// The segments with a length by slope, line and place along the line, each as its sector of directions and its number.
+struct BySlope<'a> {
+    segments: &'a [Segment],
+    points: &'a [[i64; 2]],
+    sorted: Vec<u64>,
+}
+
+/// Bits of a segment's number.
+const NUMBER: u32 = 31;
+
+impl<'a> BySlope<'a> {
+    fn new(segments: &'a [Segment], points: &'a [[i64; 2]]) -> Self {
+        let mut out = Self { segments, points, sorted: Vec::new() };
+        let number = |i: usize| sector(segments[i].slope) << NUMBER | i as u64;
+        let settle = |sorted: &mut [u64]| {
+            let same_sector = |a: &u64, b: &u64| a >> NUMBER == b >> NUMBER;
+            sorted.chunk_by_mut(same_sector).for_each(|same| out.settle(same));
+        };
+        out.sorted = sorted_numbers(segments.len(), 32 + NUMBER, number, settle);
+        out.sorted.truncate(out.sorted.partition_point(|x| x >> NUMBER < NO_SECTOR));
+        out
     }
-    keyed.into_iter().map(number).collect()
+
+    /// Sorts segments of one sector.
+    fn settle(&self, same: &mut [u64]) {
+        if same.len() < 2 || same[0] >> NUMBER == NO_SECTOR {
+            return;
+        }
+        let slope = |x: u64| self.slope(number(x));
+        let mut near: Vec<(f64, u64)> = same.iter().map(|&x| (slope(x), x)).collect();
+        parallel::sort_distinct_by(&mut near, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        same.iter_mut().zip(&near).for_each(|(to, (_, x))| *to = *x);
+        let mut rest = same;
+        for equal in near.chunk_by(|a, b| a.0 == b.0) {
+            let (equal, after) = rest.split_at_mut(equal.len());
+            if equal.len() > 1 {
+                sort_along_lines(equal, self.segments, self.points);
+            }
+            rest = after;
+        }
+    }
+
+    fn slope(&self, i: u32) -> f64 {
+        self.segments[i as usize].slope
+    }
+
+    /// Whether two segments have equal slopes; they are looked at only if their sectors are equal.
+    fn is_same(&self, a: u64, b: u64) -> bool {
+        a >> NUMBER == b >> NUMBER && self.slope(number(a)) == self.slope(number(b))
+    }
+
+    /// The first place not before i where another slope begins.
+    fn begin(&self, i: usize) -> usize {
+        match i {
+            0 => 0,
+            _ => i + self.sorted[i..].partition_point(|&x| self.is_same(x, self.sorted[i - 1])),
+        }
+    }
+
+    /// The segments of each slope that begins in a range of places, with the first one's place.
+    fn slopes(&self, range: Range<usize>) -> impl Iterator<Item = (usize, &[u64])> + '_ {
+        let mut begin = self.begin(range.start);
+        let slopes = self.sorted[begin..self.begin(range.end)].chunk_by(|&a, &b| self.is_same(a, b));
+        slopes.map(move |same| {
+            begin += same.len();
+            (begin - same.len(), same)
+        })
+    }
+}
+
+fn number(x: u64) -> u32 {
+    x as u32 & (u32::MAX >> 1)
+}
+
+/// The sector of segments without length.
+const NO_SECTOR: u64 = u32::MAX as u64;
+
+/// One of nearly 2^32 sectors of directions, from −2 to 2 in all; none is lower than that of a smaller slope.
+fn sector(slope: f64) -> u64 {
+    const FINEST: f64 = (1u64 << 30) as f64;
+    if slope.is_nan() {
+        return NO_SECTOR;
+    }
+    let x = if slope.abs() <= 1.0 { slope } else { 2f64.copysign(slope) - 1.0 / slope };
+    (((x + 2.0) * FINEST) as u64).min(NO_SECTOR - 1)
 }
 
 /// A sum like y − k x of a slope and coordinates, which may all be off by half a unit in the last place: below 2^-11
@@ -133,112 +196,130 @@ fn by_slope(segments: &[Segment]) -> Vec<u32> {
 const OFFSET_ERROR: f64 = 1.0 / 1024.0;
 
 /// Sorts segments whose rounded slopes are equal by exact slope, line, and place along the line.
-fn sort_along_lines(same: &mut [u32], segments: &[Segment], points: &[[i64; 2]]) {
-    let segment = |i: u32| &segments[i as usize];
-    let exactly = |a: u32, b: u32| segment(a).cmp_along_lines(segment(b), points).then(a.cmp(&b));
-    let direction = |i: u32| segment(i).direction(points);
+fn sort_along_lines(same: &mut [u64], segments: &[Segment], points: &[[i64; 2]]) {
+    let segment = |x: u64| &segments[number(x) as usize];
+    let exactly = |a: u64, b: u64| segment(a).cmp_along_lines(segment(b), points).then(a.cmp(&b));
+    let direction = |x: u64| segment(x).direction(points);
     if same.windows(2).any(|w| turn(direction(w[0]), direction(w[1])) != Sign::Zero) {
         return parallel::sort_distinct_by(same, |&a, &b| exactly(a, b));
     }
     let slope = segment(same[0]).slope;
     // How far the line lies to the left.
-    let offset = |i: u32| {
-        let [x, y] = points[segment(i).ends[0] as usize].map(|x| x as f64);
+    let offset = |x: u64| {
+        let [x, y] = points[segment(x).ends[0] as usize].map(|x| x as f64);
         if slope.abs() <= 1.0 { y - slope * x } else { slope.signum() * (y / slope - x) }
     };
-    let mut placed: Vec<(f64, u32)> = same.iter().map(|&i| (offset(i), i)).collect();
+    let mut placed: Vec<(f64, u64)> = same.iter().map(|&x| (offset(x), x)).collect();
     parallel::sort_distinct_by(&mut placed, |a, b| match a.0 - b.0 {
         gap if gap.abs() > 2.0 * OFFSET_ERROR => gap.total_cmp(&0.0),
         _ => exactly(a.1, b.1),
     });
-    same.iter_mut().zip(placed).for_each(|(to, (_, i))| *to = i);
+    same.iter_mut().zip(placed).for_each(|(to, (_, x))| *to = x);
 }
 
 /// Segments joined to carriers, which are named after their first segments.
 struct Lines {
+    n_with_length: usize,
     /// The first segment of each carrier, ascending.
     first: Vec<u32>,
     /// For each segment the first one of its carrier.
     of: Vec<u32>,
     /// Ends of the carrier that begins with a segment.
     ends: Vec<[u32; 2]>,
-    rank: Vec<u32>,
+    rank: Vec<AtomicU32>,
     /// As in `Carriers`.
     stops: Vec<(u32, u32)>,
 }
 
 impl Lines {
     fn new(segments: &[Segment], points: &[[i64; 2]]) -> Self {
-        let mut keys = by_slope(segments);
-        let mut out = Self {
-            first: Vec::new(),
-            of: (0..segments.len() as u32).collect(),
-            ends: segments.iter().map(|s| s.ends).collect(),
-            rank: vec![0; segments.len()],
-            stops: Vec::new(),
-        };
-        let mut rank = 0;
-        let slope = |input: u32| segments[input as usize].slope;
-        for same in keys.chunk_by_mut(|&a, &b| slope(a) == slope(b)) {
-            if let [input] = *same {
-                out.rank[input as usize] = rank;
-            } else {
-                sort_along_lines(same, segments, points);
-                rank = out.push_parallel(same, segments, points, rank);
-            }
-            rank += 1;
+        let n = segments.len();
+        let by_slope = BySlope::new(segments, points);
+        let n_with_length = by_slope.sorted.len();
+        let rank = parallel::map_light(n, |_| AtomicU32::new(0));
+        let (n_chunks, range) = parallel::chunks(n_with_length, 1 << 12);
+        let joined = parallel::map(n_chunks, |chunk| {
+            let mut out = Joined { segments, points, rank: &rank, lines: Vec::new(), stops: Vec::new() };
+            by_slope.slopes(range(chunk)).for_each(|(place, same)| out.push_slope(place as u32, same));
+            (out.lines, out.stops)
+        });
+        drop(by_slope);
+        let mut of = parallel::map_light(n, |i| i as u32);
+        let mut ends = parallel::map_light(n, |i| segments[i].ends);
+        for Line { members, ends: joined } in joined.iter().flat_map(|(lines, _)| lines) {
+            ends[members[0] as usize] = *joined;
+            members.iter().for_each(|&input| of[input as usize] = members[0]);
         }
-        drop(keys);
-        let is_first =
-            |&input: &u32| out.of[input as usize] == input && !segments[input as usize].slope.is_nan();
-        out.first = (0..segments.len() as u32).filter(is_first).collect();
-        out
+        let is_first = |input: u32| of[input as usize] == input && !segments[input as usize].slope.is_nan();
+        let first = parallel::select(n, is_first);
+        let stops = joined.into_iter().flat_map(|(_, stops)| stops).collect();
+        Self { n_with_length, first, of, ends, rank, stops }
+    }
+}
+
+/// Segments that are one carrier.
+struct Line {
+    members: Vec<u32>,
+    ends: [u32; 2],
+}
+
+/// What some slopes add to the carriers.
+struct Joined<'a> {
+    segments: &'a [Segment],
+    points: &'a [[i64; 2]],
+    rank: &'a [AtomicU32],
+    /// Carriers of more than one segment.
+    lines: Vec<Line>,
+    stops: Vec<(u32, u32)>,
+}
+
+impl Joined<'_> {
+    fn segment(&self, x: u64) -> &Segment {
+        &self.segments[number(x) as usize]
     }
 
-    /// Segments with equal keys, sorted by slope, line, and place along the line; returns the last one's rank.
-    fn push_parallel(
-        &mut self,
-        same: &[u32],
-        segments: &[Segment],
-        points: &[[i64; 2]],
-        mut rank: u32,
-    ) -> u32 {
-        let segment = |i: usize| &segments[same[i] as usize];
-        let mut begin = 0;
-        for i in 0..same.len() {
-            let (input, first) = (same[i] as usize, same[begin] as usize);
-            let [start, end] = segment(i).ends;
-            if i > 0 && turn(segment(i - 1).direction(points), segment(i).direction(points)) != Sign::Zero {
-                rank += 1;
-            }
-            self.rank[input] = rank;
-            let continues = i > 0
-                && segment(i - 1).is_in_line(segment(i), points)
-                && points[start as usize] <= points[self.ends[first][1] as usize];
-            if !continues {
-                self.push_stops(&same[begin..i], segments);
-                begin = i;
-            } else if points[end as usize] > points[self.ends[first][1] as usize] {
-                self.ends[first][1] = end;
-            }
+    /// Segments with equal slopes, by exact slope, line, and place along the line; `place` is the first one's among
+    /// all. The rank of a direction is the place where it begins.
+    fn push_slope(&mut self, place: u32, same: &[u64]) {
+        if let &[x] = same {
+            return self.rank[number(x) as usize].store(place, Relaxed);
         }
-        self.push_stops(&same[begin..], segments);
-        rank
+        let mut rank = place;
+        let (mut begin, mut end) = (0, self.segment(same[0]).ends[1]);
+        for (i, &x) in same.iter().enumerate() {
+            if i > 0 {
+                let (before, this) = (self.segment(same[i - 1]), self.segment(x));
+                if turn(before.direction(self.points), this.direction(self.points)) != Sign::Zero {
+                    rank = place + i as u32;
+                }
+                let at = |p: u32| self.points[p as usize];
+                let [start, last] = this.ends;
+                let continues = before.is_in_line(this, self.points) && at(start) <= at(end);
+                if !continues {
+                    self.push_line(&same[begin..i], end);
+                    (begin, end) = (i, last);
+                } else if at(last) > at(end) {
+                    end = last;
+                }
+            }
+            self.rank[number(x) as usize].store(rank, Relaxed);
+        }
+        self.push_line(&same[begin..], end);
     }
 
-    /// Names the carrier of some segments, and adds the ends of these that lie inside it.
-    fn push_stops(&mut self, members: &[u32], segments: &[Segment]) {
+    /// Joins segments to one carrier that ends in a point; adds the ends of these that lie inside it.
+    fn push_line(&mut self, members: &[u64], end: u32) {
         if members.len() < 2 {
             return;
         }
-        let first = members[0];
-        let ends = self.ends[first as usize];
-        let all = members.iter().flat_map(|&input| segments[input as usize].ends);
+        let ends = [self.segment(members[0]).ends[0], end];
+        let all = members.iter().flat_map(|&x| self.segment(x).ends);
         let mut inside: Vec<u32> = all.filter(|p| !ends.contains(p)).collect();
         inside.sort_unstable();
         inside.dedup();
-        self.stops.extend(inside.into_iter().map(|p| (first, p)));
-        members.iter().for_each(|&input| self.of[input as usize] = first);
+        let members: Vec<u32> = members.iter().map(|&x| number(x)).collect();
+        self.stops.extend(inside.into_iter().map(|p| (members[0], p)));
+        self.lines.push(Line { members, ends });
     }
 }
 

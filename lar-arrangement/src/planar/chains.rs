@@ -11,6 +11,7 @@ use crate::planar::crossings::Crossings;
 use crate::planar::events::Event;
 use crate::planar::numbering::Numbering;
 use crate::progress::{Cancelled, Course};
+use std::ops::Range;
 
 /// Vertices along carriers.
 #[derive(Debug, Default)]
@@ -89,6 +90,11 @@ impl Chains {
     /// Number of edges of all carriers.
     pub(crate) fn n_edges(&self) -> usize {
         self.chain.len() + 1 - self.offsets.len()
+    }
+
+    /// The edges along a carrier, numbered from one carrier to the next.
+    pub(crate) fn edges_along(&self, carrier: u32) -> Range<u32> {
+        self.offsets[carrier as usize] - carrier..self.offsets[carrier as usize + 1] - carrier - 1
     }
 
     /// The vertices along a carrier.

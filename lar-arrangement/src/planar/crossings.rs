@@ -1,7 +1,8 @@
 //! Planar stage 2: where carriers meet. Each meeting becomes an [`Event`] on the carriers it is inside of.
 
 use crate::boxes::{BoxTree, NO_GROUP};
-use crate::parallel;
+use crate::error::ArrangementError;
+use crate::parallel::{self, Team};
 use crate::planar::along::{key, long_axis};
 use crate::planar::bundles::{BUNDLE, Bundle, Bundles, bundles_at, n_sampled};
 use crate::planar::carriers::{Carriers, cross};
@@ -29,12 +30,17 @@ pub(crate) fn crossings(
     carriers: &Carriers,
     tree: &BoxTree<2>,
     course: &Course,
-) -> Result<Crossings, Cancelled> {
+    team: &Team,
+) -> Result<Crossings, ArrangementError> {
     let mut out = Crossings::with_stops(carriers);
+    let mut lists = Vec::new();
+    let mut base = carriers.points.len();
     let mut bundles = Bundles::of_fans(carriers);
-    let mut regrouped = (!bundles.is_empty()).then(|| bundles.tree(carriers, tree.items().to_vec()));
+    let regroup =
+        |bundles: &Bundles, items: &[u32]| team.work(items.len(), || bundles.tree(carriers, items.to_vec()));
+    let mut regrouped = if bundles.is_empty() { None } else { Some(regroup(&bundles, tree.items())?) };
     let sample = n_sampled(tree.items().len());
-    let (mut done, mut sampled, mut round) = (0, 0, 1);
+    let (mut done, mut sampled, mut searched, mut round) = (0, 0, 0, 1);
     let quiet = course.quiet();
     loop {
         let tree = regrouped.as_ref().unwrap_or(tree);
@@ -43,18 +49,25 @@ pub(crate) fn crossings(
         let mut is_news = false;
         // Nearly all of the work is in the last round.
         let course = if to == n_blocks { course } else { &quiet };
-        for part in search(carriers, tree, &bundles, done..to, course)? {
+        // As many pairs as in the blocks before.
+        let expected = out.pairs_tested as usize / searched.max(1) * (to - done);
+        for part in team.work(expected, || search(carriers, tree, &bundles, done..to, course))?? {
             for bundle in &part.bundles {
                 is_news |= bundles.learn(bundle);
             }
-            out.push(carriers, part);
+            out.lots.push(part.lot.numbered_from(base as u32));
+            out.pairs_tested += part.pairs;
+            base += part.crossings.len();
+            lists.push(part.crossings);
         }
+        searched += to - done;
         if to == n_blocks {
+            out.crossings = team.work(base, || parallel::concat(&lists))?;
             return Ok(out);
         }
         (done, sampled, round) = (to, sampled + to - done, 2 * round);
         if is_news {
-            regrouped = Some(bundles.tree(carriers, tree.items_from(done).to_vec()));
+            regrouped = Some(regroup(&bundles, tree.items_from(done))?);
             done = 0;
         }
     }
@@ -91,13 +104,6 @@ impl Crossings {
         let events: Vec<Event> = carriers.stops.iter().map(event).collect();
         let ranges = Ranges::new(carriers.ends.len());
         Self { crossings: Vec::new(), ranges, lots: vec![Lot::new(ranges, &events)], pairs_tested: 0 }
-    }
-
-    fn push(&mut self, carriers: &Carriers, part: Part) {
-        let base = (carriers.points.len() + self.crossings.len()) as u32;
-        self.lots.push(part.lot.numbered_from(base));
-        self.crossings.extend(part.crossings);
-        self.pairs_tested += part.pairs;
     }
 }
 

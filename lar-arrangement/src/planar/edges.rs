@@ -3,16 +3,18 @@
 //! A *run* is a stretch of edges along one carrier with none left out. The half-edges that leave a vertex are those of
 //! the runs that pass it: forwards ones by slope, then backwards ones by slope, as carriers point right or straight up.
 
+use crate::counting::offsets;
 use crate::parallel;
 use crate::planar::carriers::Carriers;
 use crate::planar::chains::Chains;
 use crate::subdivision::Cycles;
 use crate::union_find::UnionFind;
+use std::ops::Range;
 
 pub(crate) const NO_EDGE: u32 = u32::MAX;
 
 /// Successive edges along a carrier.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Run {
     pub carrier: u32,
     pub first_edge: u32,
@@ -32,42 +34,34 @@ pub(crate) struct Edges {
 }
 
 impl Edges {
-    /// Those of all edges of the chains, numbered from one carrier to the next, that are to be kept.
-    pub(crate) fn new(chains: &Chains, keep: impl Fn(u32) -> bool) -> Self {
+    /// Those of all edges of the chains, numbered from one carrier to the next, that are to be kept. They are counted
+    /// first, so that the edges of some carriers can be filled in on their own.
+    pub(crate) fn new(chains: &Chains, keep: impl Fn(u32) -> bool + Sync + Send) -> Self {
         let n_carriers = chains.offsets.len() - 1;
-        let n = chains.n_edges();
+        let (n_parts, carriers) = parallel::chunks(n_carriers, (n_carriers / 256).max(16));
+        let counts = parallel::map(n_parts, |part| count(chains, carriers(part), &keep));
+        let first_edge = offsets(counts.iter().map(|n| n[0]));
+        let first_run = offsets(counts.iter().map(|n| n[1]));
+        let (n, n_runs) = (first_edge[n_parts] as usize, first_run[n_parts] as usize);
         let mut out = Self {
-            ends: Vec::with_capacity(n),
-            runs: Vec::with_capacity(n_carriers),
-            run_of: Vec::with_capacity(n),
-            edge_at: Vec::with_capacity(chains.chain.len()),
+            ends: vec![[0; 2]; n],
+            runs: vec![Run::default(); n_runs],
+            run_of: vec![0; n],
+            edge_at: vec![0; chains.chain.len()],
         };
-        let mut all = 0..;
-        for carrier in 0..n_carriers as u32 {
-            let mut continues = false;
-            for (w, edge) in chains.along(carrier).windows(2).zip(&mut all) {
-                let keeps = keep(edge);
-                if keeps {
-                    out.push(carrier, [w[0], w[1]], continues);
-                } else {
-                    out.edge_at.push(NO_EDGE);
-                }
-                continues = keeps;
-            }
-            out.edge_at.push(NO_EDGE);
-        }
+        let n_edges = || counts.iter().map(|n| n[0] as usize);
+        let n_places =
+            |part| (chains.offsets[carriers(part).end] - chains.offsets[carriers(part).start]) as usize;
+        let parts = parallel::cut(&mut out.ends, n_edges()).into_iter();
+        let parts = parts.zip(parallel::cut(&mut out.runs, counts.iter().map(|n| n[1] as usize)));
+        let parts = parts.zip(parallel::cut(&mut out.run_of, n_edges()));
+        let parts = parts.zip(parallel::cut(&mut out.edge_at, (0..n_parts).map(n_places)));
+        parallel::each(parts.enumerate().collect(), |(i, (((ends, runs), run_of), edge_at))| {
+            let (first_edge, first_run) = (first_edge[i], first_run[i]);
+            let mut part = Part { ends, runs, run_of, first_edge, first_run, n_edges: 0, n_runs: 0 };
+            part.fill(chains, carriers(i), &keep, edge_at);
+        });
         out
-    }
-
-    fn push(&mut self, carrier: u32, ends: [u32; 2], continues: bool) {
-        let edge = self.ends.len() as u32;
-        if !continues {
-            self.runs.push(Run { carrier, first_edge: edge, end_edge: edge });
-        }
-        self.edge_at.push(edge);
-        self.ends.push(ends);
-        self.run_of.push(self.runs.len() as u32 - 1);
-        self.runs.last_mut().expect("an edge is in a run").end_edge = edge + 1;
     }
 
     /// The same without edges that have one cycle on both sides; `None` when there are none. They are those with
@@ -94,6 +88,70 @@ impl Edges {
             parallel::join(|| parallel::map(self.ends.len(), next), || star.components(self.runs.len()));
         drop(star);
         (Cycles::new(next.into_flattened()), components)
+    }
+}
+
+/// Number of the edges of some carriers that are to be kept, and of their runs.
+fn count(chains: &Chains, carriers: Range<usize>, keep: impl Fn(u32) -> bool) -> [u32; 2] {
+    let mut counts = [0; 2];
+    for carrier in carriers {
+        let mut continues = false;
+        for edge in chains.edges_along(carrier as u32) {
+            let keeps = keep(edge);
+            counts[0] += u32::from(keeps);
+            counts[1] += u32::from(keeps && !continues);
+            continues = keeps;
+        }
+    }
+    counts
+}
+
+/// The places of the edges of some carriers and of their runs.
+struct Part<'a> {
+    ends: &'a mut [[u32; 2]],
+    runs: &'a mut [Run],
+    run_of: &'a mut [u32],
+    first_edge: u32,
+    first_run: u32,
+    /// How many there are yet.
+    n_edges: usize,
+    n_runs: usize,
+}
+
+impl Part<'_> {
+    fn fill(
+        &mut self,
+        chains: &Chains,
+        carriers: Range<usize>,
+        keep: impl Fn(u32) -> bool,
+        edge_at: &mut [u32],
+    ) {
+        let mut places = edge_at.iter_mut();
+        for carrier in carriers.map(|carrier| carrier as u32) {
+            let mut continues = false;
+            // After the last vertex there is no edge.
+            let ends = chains.along(carrier).windows(2).map(|w| [w[0], w[1]]);
+            let edges = ends.zip(chains.edges_along(carrier)).map(Some).chain([None]);
+            for (edge, place) in edges.zip(&mut places) {
+                let kept = edge.filter(|(_, edge)| keep(*edge));
+                *place = kept.map_or(NO_EDGE, |(ends, _)| self.push(carrier, ends, continues));
+                continues = kept.is_some();
+            }
+        }
+    }
+
+    /// Adds an edge; returns its number.
+    fn push(&mut self, carrier: u32, ends: [u32; 2], continues: bool) -> u32 {
+        let edge = self.first_edge + self.n_edges as u32;
+        if !continues {
+            self.runs[self.n_runs] = Run { carrier, first_edge: edge, end_edge: edge };
+            self.n_runs += 1;
+        }
+        self.ends[self.n_edges] = ends;
+        self.run_of[self.n_edges] = self.first_run + self.n_runs as u32 - 1;
+        self.runs[self.n_runs - 1].end_edge = edge + 1;
+        self.n_edges += 1;
+        edge
     }
 }
 

@@ -6,7 +6,7 @@
 
 use crate::counting::offsets;
 use crate::parallel;
-use crate::planar::carriers::Carriers;
+use crate::planar::carriers::{Carriers, Member};
 use crate::planar::chains::{Chains, NO_VERTEX, Part, VertexSource};
 use crate::planar::events::FIRST;
 use crate::union_find::UnionFind;
@@ -77,7 +77,8 @@ impl<'a> Numbering<'a> {
         let joined = Joined::new(n_points as usize + crossings.len(), &parts);
         let firsts = joined.firsts(&parts);
         let mut first_carrier = vec![u32::MAX; n_points as usize];
-        for (ends, carrier) in carriers.ends.iter().zip(0..) {
+        // By members, whose ends lie side by side in memory, and are ends of their carriers or inside them.
+        for &Member { carrier, ends, .. } in &carriers.members {
             ends.iter().for_each(|&p| {
                 let first = &mut first_carrier[p as usize];
                 *first = carrier.min(*first);

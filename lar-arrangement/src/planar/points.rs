@@ -1,47 +1,66 @@
 //! Planar stage 1a: equal grid points are one.
 
-use crate::counting::sorted_by_place;
+use crate::counting::{offsets, sorted_by_place};
 use crate::parallel;
 use rustc_hash::FxBuildHasher;
 use std::hash::BuildHasher;
 
 /// The distinct points in first-seen order, and the number of each among them. O(n), in place.
 pub(crate) fn unify(mut points: Vec<[i64; 2]>) -> (Vec<[i64; 2]>, Vec<u32>) {
-    let mut number = first_equal(&points);
-    let mut n = 0;
-    for i in 0..points.len() {
-        let first = number[i] as usize;
-        number[i] = if first == i {
-            points[n] = points[i];
-            n += 1;
-            n as u32 - 1
-        } else {
-            number[first]
-        };
+    let first = first_equal(&points);
+    let (n_chunks, range) = parallel::chunks(points.len(), CHUNK);
+    let counts = parallel::map(n_chunks, |i| range(i).filter(|&i| first[i] == i as u32).count() as u32);
+    let begins = offsets(counts.into_iter());
+    if begins[n_chunks] as usize == points.len() {
+        return (points, first);
     }
-    points.truncate(n);
+    let mut number = vec![0; points.len()];
+    let chunks = parallel::cut(&mut number, (0..n_chunks).map(|i| range(i).len()));
+    parallel::each(chunks.into_iter().enumerate().collect(), |(i, chunk)| {
+        let firsts = chunk.iter_mut().zip(range(i)).filter(|(_, i)| first[*i] == *i as u32);
+        firsts.zip(begins[i]..).for_each(|((to, _), number)| *to = number);
+    });
+    let mut place = 0..;
+    points.retain(|_| place.next().is_some_and(|i| first[i] == i as u32));
     points.shrink_to_fit();
+    let number = parallel::map_light(first.len(), |i| number[first[i] as usize]);
     (points, number)
 }
 
 /// A part's table of this many points stays in a processor's cache.
 const PART: usize = 1 << 16;
 
+/// So many points are divided into parts at a time.
+const CHUNK: usize = 1 << 15;
+
 /// For each point the first one that equals it. Equal points have equal hashes, so parts by hash are independent.
 fn first_equal(points: &[[i64; 2]]) -> Vec<u32> {
     let n_parts = (points.len() / PART).next_power_of_two();
     if n_parts == 1 {
-        return first_of_part(points, 0..points.len() as u32);
+        return first_of_part(points, &[&Vec::from_iter(0..points.len() as u32)]).concat();
     }
-    let all = Vec::from_iter(0..points.len() as u32);
-    let part_of = |&i: &u32| hash(points[i as usize]) % n_parts;
-    let (offsets, parts) = sorted_by_place(n_parts, &all, part_of);
-    let part = |part: usize| parts[offsets[part] as usize..offsets[part + 1] as usize].iter().copied();
-    let firsts = parallel::map(n_parts, |i| first_of_part(points, part(i)));
-    let mut out = all;
-    for (i, first) in parts.iter().zip(firsts.iter().flatten()) {
-        out[*i as usize] = *first;
-    }
+    let (n_chunks, range) = parallel::chunks(points.len(), CHUNK);
+    let chunks = parallel::map(n_chunks, |chunk| {
+        let all: Vec<u32> = range(chunk).map(|i| i as u32).collect();
+        sorted_by_place(n_parts, &all, |&i| hash(points[i as usize]) % n_parts)
+    });
+    let of_part = |chunk: usize, part: usize| {
+        let (offsets, numbers) = &chunks[chunk];
+        &numbers[offsets[part] as usize..offsets[part + 1] as usize]
+    };
+    let firsts = parallel::map(n_parts, |part| {
+        let lists: Vec<&[u32]> = (0..n_chunks).map(|chunk| of_part(chunk, part)).collect();
+        first_of_part(points, &lists)
+    });
+    let mut out = vec![0; points.len()];
+    let outs = parallel::cut(&mut out, (0..n_chunks).map(|i| range(i).len()));
+    parallel::each(outs.into_iter().enumerate().collect(), |(chunk, out)| {
+        for (part, firsts) in firsts.iter().enumerate() {
+            for (&i, &first) in of_part(chunk, part).iter().zip(&firsts[chunk]) {
+                out[i as usize - range(chunk).start] = first;
+            }
+        }
+    });
     out
 }
 
@@ -49,12 +68,14 @@ fn hash(point: [i64; 2]) -> usize {
     (FxBuildHasher.hash_one(point) >> 20) as usize
 }
 
-/// For each of some points the first one of them that equals it. A table with open addressing, at most half full.
-fn first_of_part(points: &[[i64; 2]], part: impl ExactSizeIterator<Item = u32>) -> Vec<u32> {
+/// For each of some points, in lists, the first one of all that equals it. A table with open addressing, at most half
+/// full.
+fn first_of_part(points: &[[i64; 2]], part: &[&[u32]]) -> Vec<Vec<u32>> {
     const EMPTY: u32 = u32::MAX;
-    let mask = (2 * part.len()).next_power_of_two() - 1;
+    let n: usize = part.iter().map(|list| list.len()).sum();
+    let mask = (2 * n).next_power_of_two() - 1;
     let mut table = vec![EMPTY; mask + 1];
-    let first = |i: u32| {
+    let mut first = |i: u32| {
         // The lowest bits are those of the part.
         let mut slot = (hash(points[i as usize]) >> 12) & mask;
         loop {
@@ -68,7 +89,7 @@ fn first_of_part(points: &[[i64; 2]], part: impl ExactSizeIterator<Item = u32>) 
             }
         }
     };
-    part.map(first).collect()
+    part.iter().map(|list| list.iter().map(|&i| first(i)).collect()).collect()
 }
 
 #[cfg(test)]

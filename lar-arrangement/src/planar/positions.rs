@@ -45,7 +45,8 @@ pub(crate) fn lengths(
             }
         });
     }
-    let scale = |part: &mut [[f64; 2]]| part.iter_mut().flatten().for_each(|x| *x = grid.length(*x));
-    parallel::each(positions.chunks_mut(1 << 14).collect(), scale);
+    parallel::each_chunk(&mut positions, |_, part| {
+        part.iter_mut().flatten().for_each(|x| *x = grid.length(*x));
+    });
     positions
 }

@@ -3,12 +3,12 @@
 use crate::boxes::{Aabb, BoxTree};
 use crate::error::ArrangementError;
 use crate::grid::Grid;
-use crate::parallel;
+use crate::parallel::{self, Team};
 use crate::planar::assemble::assemble;
 use crate::planar::bundles::sample_first;
 use crate::planar::carriers::Carriers;
 use crate::planar::chains::{Chains, VertexSource};
-use crate::planar::crossings::crossings;
+use crate::planar::crossings::{Crossings, crossings};
 use crate::planar::edges::{Edges, NO_EDGE};
 use crate::planar::faces::Embedding;
 use crate::planar::input::Drawing;
@@ -157,29 +157,43 @@ impl<'a> PlanarArranger<'a> {
     /// Points that are not two-dimensional or not finite, segments between points that do not exist; when the
     /// threads cannot be started or the work was cancelled.
     pub fn arrange(&self, drawing: &Drawing) -> Result<PlanarArrangement, ArrangementError> {
-        parallel::with_threads(self.threads, || self.run(drawing))?
-    }
-
-    fn run(&self, drawing: &Drawing) -> Result<PlanarArrangement, ArrangementError> {
         let mut stats = Stats::default();
+        let team = Team::new(self.threads);
         let course = Course::new(self.control, PLAN);
         course.begin("carriers", &mut stats)?;
-        let grid = fitted_grid(drawing)?;
-        let points = drawing.points.coords();
-        let snapped = parallel::map(drawing.points.len(), |i| grid.snap([points[2 * i], points[2 * i + 1]]));
-        let carriers = Carriers::new(drawing, snapped);
+        let (grid, carriers) = team.work(drawing.n_segments(), || on_grid(drawing))??;
         course.begin("crossings", &mut stats)?;
-        let n_carriers = carriers.ends.len() as u32;
-        let tree = BoxTree::over(sample_first(&Vec::from_iter(0..n_carriers)), |c| carriers.box_of(c));
-        let found = crossings(&carriers, &tree, &course)?;
+        let n = carriers.ends.len();
+        let tree = team
+            .work(n, || BoxTree::over(sample_first(&Vec::from_iter(0..n as u32)), |c| carriers.box_of(c)))?;
+        let found = crossings(&carriers, &tree, &course, &team)?;
         stats.pairs_tested = found.pairs_tested;
         stats.pairs_crossing = found.crossings.len() as u64;
-        course.begin("chains", &mut stats)?;
-        let chains = Chains::new(&carriers, found, &course)?;
-        course.begin("cycles", &mut stats)?;
+        let n_edges = n + 2 * found.crossings.len();
+        let mut out = team.work(n_edges, || {
+            let out = self.complex(grid, carriers, tree, found, (&course, &mut stats))?;
+            self.with_regions(out, drawing, (&course, &mut stats))
+        })??;
+        course.finish(&mut stats);
+        out.stats = stats;
+        Ok(out)
+    }
+
+    /// The complex, without regions and isolated vertices.
+    fn complex(
+        &self,
+        grid: Grid,
+        carriers: Carriers,
+        tree: BoxTree<2>,
+        found: Crossings,
+        (course, stats): (&Course, &mut Stats),
+    ) -> Result<PlanarArrangement, ArrangementError> {
+        course.begin("chains", stats)?;
+        let chains = Chains::new(&carriers, found, course)?;
+        course.begin("cycles", stats)?;
         let (positions, (edges, cycles, component_of)) =
             parallel::join(|| positions(&carriers, &chains), || self.cycles(&carriers, &chains));
-        course.begin("faces", &mut stats)?;
+        course.begin("faces", stats)?;
         let embedding = Embedding {
             carriers: &carriers,
             chains: &chains,
@@ -187,19 +201,25 @@ impl<'a> PlanarArranger<'a> {
             edges: &edges,
             positions: &positions,
         };
-        let subdivision = embedding.subdivision(cycles, &component_of, &course)?;
+        let subdivision = embedding.subdivision(cycles, &component_of, course)?;
         drop((tree, component_of));
-        course.begin("complex", &mut stats)?;
+        course.begin("complex", stats)?;
         stats.grid_step = grid.step();
         let positions = lengths(&grid, &carriers, &chains, positions);
-        let mut out = assemble(positions, edges, subdivision, chains, carriers, grid);
-        course.begin("membership", &mut stats)?;
+        Ok(assemble(positions, edges, subdivision, chains, carriers, grid))
+    }
+
+    fn with_regions(
+        &self,
+        mut out: PlanarArrangement,
+        drawing: &Drawing,
+        (course, stats): (&Course, &mut Stats),
+    ) -> Result<PlanarArrangement, ArrangementError> {
+        course.begin("membership", stats)?;
         out.wind(drawing);
         if self.keep_isolated {
             out.add_isolated(|_| true);
         }
-        course.finish(&mut stats);
-        out.stats = stats;
         Ok(out)
     }
 
@@ -220,6 +240,14 @@ impl<'a> PlanarArranger<'a> {
             Dangling::Keep => (edges, cycles, component_of),
         }
     }
+}
+
+/// The grid, and the carriers on it.
+fn on_grid(drawing: &Drawing) -> Result<(Grid, Carriers), ArrangementError> {
+    let grid = fitted_grid(drawing)?;
+    let points = drawing.points.coords();
+    let snapped = parallel::map(drawing.points.len(), |i| grid.snap([points[2 * i], points[2 * i + 1]]));
+    Ok((grid, Carriers::new(drawing, snapped)))
 }
 
 fn fitted_grid(drawing: &Drawing) -> Result<Grid, ArrangementError> {
