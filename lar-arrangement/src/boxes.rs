@@ -79,13 +79,13 @@ pub(crate) fn z_order<const D: usize>(n: usize, box_of: impl Fn(u32) -> Aabb<D> 
         (0..D).fold(0, |key, k| key | spread::<D>(cell(k)) << k)
     };
     // The upper half of the key and the number together; what is below decides for few.
-    let upper = |i: usize| (key(i as u32) >> (D * BITS - 32)) << 32 | i as u64;
+    let upper = parallel::map_light(n, |i| (key(i as u32) >> (D * BITS - 32)) << 32 | i as u64);
     let settle = |sorted: &mut [u64]| {
         for same in sorted.chunk_by_mut(|a, b| a >> 32 == b >> 32).filter(|same| same.len() > 1) {
             same.sort_unstable_by_key(|&x| (key(x as u32), x));
         }
     };
-    let sorted = sorted_numbers(n, 64, upper, settle);
+    let sorted = sorted_numbers(&upper, 64, settle);
     parallel::map_light(n, |i| sorted[i] as u32)
 }
 

@@ -49,37 +49,35 @@ fn sort_by_place<T: Copy>(
 /// So many numbers are sorted by their highest bits at a time.
 const CHUNK: usize = 1 << 15;
 
-/// Sorts the distinct numbers of 0..n, of so many bits. Chunks are sorted by the highest
-/// bits, then what has these in common is brought together and sorted further: O(n) when numbers are spread evenly, and
-/// all of it in caches. Such a part of the result is given to `settle`, which may change the order of numbers that
-/// differ only in lower bits.
+/// Sorts distinct numbers of so many bits. Chunks are sorted by the highest bits, then what has these in common is brought
+/// together and sorted further: O(n) when numbers are spread evenly, and all of it in caches. Such a part of the result
+/// is given to `settle`, which may change the order of numbers that differ only in lower bits.
 pub(crate) fn sorted_numbers(
-    n: usize,
+    numbers: &[u64],
     bits: u32,
-    number: impl Fn(usize) -> u64 + Sync + Send,
     settle: impl Fn(&mut [u64]) + Sync + Send,
 ) -> Vec<u64> {
-    let (n_chunks, range) = parallel::chunks(n, CHUNK);
-    let upper = if n_chunks < 2 { 0 } else { (n >> 12).ilog2().min(8) };
-    let n_places = 1 << upper;
+    let mut sorted = vec![0; numbers.len()];
+    if numbers.len() <= CHUNK {
+        sort_below(numbers, bits, &mut sorted);
+        settle(&mut sorted);
+        return sorted;
+    }
+    let upper = (numbers.len() >> 12).ilog2().min(8);
+    let (n_chunks, range) = parallel::chunks(numbers.len(), CHUNK);
     let chunks = parallel::map(n_chunks, |chunk| {
-        let numbers: Vec<u64> = range(chunk).map(&number).collect();
-        match upper {
-            0 => (vec![0, numbers.len() as u32], numbers),
-            _ => sorted_by_place(n_places, &numbers, |x| (x >> (bits - upper)) as usize),
-        }
+        sorted_by_place(1 << upper, &numbers[range(chunk)], |x| (x >> (bits - upper)) as usize)
     });
-    let of_chunk = |chunk: usize, place: usize| {
-        let (offsets, numbers) = &chunks[chunk];
-        &numbers[offsets[place] as usize..offsets[place + 1] as usize]
+    let of_place = |place: usize| {
+        let in_chunks = chunks
+            .iter()
+            .map(|(offsets, numbers)| &numbers[offsets[place] as usize..offsets[place + 1] as usize]);
+        in_chunks.collect::<Vec<&[u64]>>()
     };
-    let length = |place| (0..n_chunks).map(|chunk| of_chunk(chunk, place).len()).sum();
-    let lengths: Vec<usize> = (0..n_places).map(length).collect();
-    let mut sorted = vec![0; lengths.iter().sum()];
-    let parts = parallel::cut(&mut sorted, lengths.into_iter());
+    let lengths = (0..1 << upper).map(|place| of_place(place).iter().map(|numbers| numbers.len()).sum());
+    let parts = parallel::cut(&mut sorted, lengths);
     parallel::each(parts.into_iter().enumerate().collect(), |(place, part)| {
-        let numbers: Vec<&[u64]> = (0..n_chunks).map(|chunk| of_chunk(chunk, place)).collect();
-        sort_below(&numbers.concat(), bits - upper, part);
+        sort_below(&of_place(place).concat(), bits - upper, part);
         settle(part);
     });
     sorted
@@ -104,10 +102,10 @@ mod tests {
         #[test]
         fn numbers_are_sorted(upper in prop::collection::vec(0u64..1 << 20, 0..50), shift in 0u32..24) {
             let n = 1000 * upper.len();
-            let number = |i: usize| upper[i / 1000] << shift << 20 | i as u64;
-            let mut expected: Vec<u64> = (0..n).map(number).collect();
+            let numbers: Vec<u64> = (0..n).rev().map(|i| upper[i / 1000] << shift << 20 | i as u64).collect();
+            let mut expected = numbers.clone();
             expected.sort_unstable();
-            prop_assert_eq!(sorted_numbers(n, 64, number, |_| ()), expected);
+            prop_assert_eq!(sorted_numbers(&numbers, 64, |_| ()), expected);
         }
     }
 }

@@ -117,12 +117,12 @@ const NUMBER: u32 = 31;
 impl<'a> BySlope<'a> {
     fn new(segments: &'a [Segment], points: &'a [[i64; 2]]) -> Self {
         let mut out = Self { segments, points, sorted: Vec::new() };
-        let number = |i: usize| sector(segments[i].slope) << NUMBER | i as u64;
+        let numbers = parallel::map_light(segments.len(), |i| sector(segments[i].slope) << NUMBER | i as u64);
         let settle = |sorted: &mut [u64]| {
             let same_sector = |a: &u64, b: &u64| a >> NUMBER == b >> NUMBER;
             sorted.chunk_by_mut(same_sector).for_each(|same| out.settle(same));
         };
-        out.sorted = sorted_numbers(segments.len(), 32 + NUMBER, number, settle);
+        out.sorted = sorted_numbers(&numbers, 32 + NUMBER, settle);
         out.sorted.truncate(out.sorted.partition_point(|x| x >> NUMBER < NO_SECTOR));
         out
     }

@@ -126,17 +126,19 @@ impl Part<'_> {
         keep: impl Fn(u32) -> bool,
         edge_at: &mut [u32],
     ) {
-        let mut places = edge_at.iter_mut();
+        let first_place = chains.offsets[carriers.start];
         for carrier in carriers.map(|carrier| carrier as u32) {
+            let begin = (chains.offsets[carrier as usize] - first_place) as usize;
             let mut continues = false;
-            // After the last vertex there is no edge.
-            let ends = chains.along(carrier).windows(2).map(|w| [w[0], w[1]]);
-            let edges = ends.zip(chains.edges_along(carrier)).map(Some).chain([None]);
-            for (edge, place) in edges.zip(&mut places) {
-                let kept = edge.filter(|(_, edge)| keep(*edge));
-                *place = kept.map_or(NO_EDGE, |(ends, _)| self.push(carrier, ends, continues));
-                continues = kept.is_some();
+            for ((w, edge), at) in
+                chains.along(carrier).windows(2).zip(chains.edges_along(carrier)).zip(&mut edge_at[begin..])
+            {
+                let keeps = keep(edge);
+                *at = if keeps { self.push(carrier, [w[0], w[1]], continues) } else { NO_EDGE };
+                continues = keeps;
             }
+            // After the last vertex there is no edge.
+            edge_at[begin + chains.along(carrier).len() - 1] = NO_EDGE;
         }
     }
 
