@@ -40,7 +40,7 @@ pub(crate) fn crossings(
         |bundles: &Bundles, items: &[u32]| team.work(items.len(), || bundles.tree(carriers, items.to_vec()));
     let mut regrouped = if bundles.is_empty() { None } else { Some(regroup(&bundles, tree.items())?) };
     let sample = n_sampled(tree.items().len());
-    let (mut done, mut sampled, mut searched, mut round) = (0, 0, 0, 1);
+    let (mut done, mut sampled, mut round, mut in_round) = (0, 0, 1, 0);
     let quiet = course.quiet();
     loop {
         let tree = regrouped.as_ref().unwrap_or(tree);
@@ -49,8 +49,9 @@ pub(crate) fn crossings(
         let mut is_news = false;
         // Nearly all of the work is in the last round.
         let course = if to == n_blocks { course } else { &quiet };
-        // As many pairs as in the blocks before.
-        let expected = out.pairs_tested as usize / searched.max(1) * (to - done);
+        // As many pairs a block as in the round before.
+        let expected = in_round / (round / 2).max(1) * (to - done);
+        let (pairs_before, crossings_before) = (out.pairs_tested, base);
         for part in team.work(expected, || search(carriers, tree, &bundles, done..to, course))?? {
             for bundle in &part.bundles {
                 is_news |= bundles.learn(bundle);
@@ -60,7 +61,8 @@ pub(crate) fn crossings(
             base += part.crossings.len();
             lists.push(part.crossings);
         }
-        searched += to - done;
+        // Once a bundle is known, only those of its pairs that were kept are to be expected again.
+        in_round = if is_news { base - crossings_before } else { (out.pairs_tested - pairs_before) as usize };
         if to == n_blocks {
             out.crossings = team.work(base, || parallel::concat(&lists))?;
             return Ok(out);
