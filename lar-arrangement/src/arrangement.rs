@@ -129,7 +129,7 @@ impl Arrangement {
         self.loop_range(face).map(|l| self.loops[l].iter().map(|&h| HalfEdge::from_code(h)))
     }
 
-    fn loop_range(&self, face: FaceId) -> std::ops::Range<usize> {
+    pub(crate) fn loop_range(&self, face: FaceId) -> std::ops::Range<usize> {
         self.face_loops[face.index()] as usize..self.face_loops[face.index() + 1] as usize
     }
 

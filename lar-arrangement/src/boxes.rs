@@ -1,11 +1,10 @@
 //! Broad phase: a tree of boxes over points in Z-order, eight children a node, built in bulk.
 
-use crate::counting::sorted_numbers;
+use crate::counting::{sorted_by_place, sorted_numbers};
 use crate::parallel;
 use crate::progress::{Cancelled, Course};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
-use std::ops::Range;
 use wide::f32x8;
 
 /// An axis-aligned closed box.
@@ -60,33 +59,58 @@ impl PartialOrd for Reach {
 /// Bits of a place along an axis of the curve.
 const BITS: usize = 20;
 
-/// The order of n boxes along a Z-shaped space-filling curve through their middles.
-pub(crate) fn z_order<const D: usize>(n: usize, box_of: impl Fn(u32) -> Aabb<D> + Sync + Send) -> Vec<u32> {
+/// The box around n boxes.
+pub(crate) fn hull<const D: usize>(n: usize, box_of: impl Fn(u32) -> Aabb<D> + Sync + Send) -> Aabb<D> {
     let (n_chunks, range) = parallel::chunks(n, 1 << 14);
     let hulls = parallel::map(n_chunks, |chunk| {
         range(chunk).fold(Aabb::EMPTY, |all, i| all.joined(&box_of(i as u32)))
     });
-    let all = hulls.iter().fold(Aabb::EMPTY, |all, hull| all.joined(hull));
-    let scale: [f64; D] =
-        std::array::from_fn(
-            |k| {
-                if all.hi[k] > all.lo[k] { 1_048_575.0 / (all.hi[k] - all.lo[k]) } else { 0.0 }
-            },
-        );
-    let key = |i: u32| {
-        let b = box_of(i);
-        let cell = |k: usize| (((b.lo[k] - all.lo[k]) * 0.5 + (b.hi[k] - all.lo[k]) * 0.5) * scale[k]) as u64;
+    hulls.iter().fold(Aabb::EMPTY, |all, hull| all.joined(hull))
+}
+
+/// The order of n boxes along a Z-shaped space-filling curve through their middles.
+pub(crate) fn z_order<const D: usize>(n: usize, box_of: impl Fn(u32) -> Aabb<D> + Sync + Send) -> Vec<u32> {
+    let curve = Curve::through(&hull(n, &box_of));
+    let upper = parallel::map_light(n, |i| curve.upper(&box_of(i as u32), i as u32));
+    curve.sorted(&upper, box_of)
+}
+
+/// A Z-shaped curve through a box.
+struct Curve<const D: usize> {
+    lo: [f64; D],
+    /// From lengths to squares of the curve.
+    scale: [f64; D],
+}
+
+impl<const D: usize> Curve<D> {
+    fn through(all: &Aabb<D>) -> Self {
+        let scale =
+            |k: usize| if all.hi[k] > all.lo[k] { 1_048_575.0 / (all.hi[k] - all.lo[k]) } else { 0.0 };
+        Self { lo: all.lo, scale: std::array::from_fn(scale) }
+    }
+
+    /// Where the middle of a box lies on the curve.
+    fn key(&self, b: &Aabb<D>) -> u64 {
+        let cell =
+            |k: usize| (((b.lo[k] - self.lo[k]) * 0.5 + (b.hi[k] - self.lo[k]) * 0.5) * self.scale[k]) as u64;
         (0..D).fold(0, |key, k| key | spread::<D>(cell(k)) << k)
-    };
-    // The upper half of the key and the number together; what is below decides for few.
-    let upper = parallel::map_light(n, |i| (key(i as u32) >> (D * BITS - 32)) << 32 | i as u64);
-    let settle = |sorted: &mut [u64]| {
-        for same in sorted.chunk_by_mut(|a, b| a >> 32 == b >> 32).filter(|same| same.len() > 1) {
-            same.sort_unstable_by_key(|&x| (key(x as u32), x));
-        }
-    };
-    let sorted = sorted_numbers(&upper, 64, settle);
-    parallel::map_light(n, |i| sorted[i] as u32)
+    }
+
+    /// The upper half of a box's key, above its number; what is below decides for few.
+    fn upper(&self, b: &Aabb<D>, i: u32) -> u64 {
+        (self.key(b) >> (D * BITS - 32)) << 32 | u64::from(i)
+    }
+
+    /// The numbers of boxes along the curve.
+    fn sorted(&self, upper: &[u64], box_of: impl Fn(u32) -> Aabb<D> + Sync + Send) -> Vec<u32> {
+        let settle = |sorted: &mut [u64]| {
+            for same in sorted.chunk_by_mut(|a, b| a >> 32 == b >> 32).filter(|same| same.len() > 1) {
+                same.sort_unstable_by_key(|&x| (self.key(&box_of(x as u32)), x));
+            }
+        };
+        let sorted = sorted_numbers(upper, 64, settle);
+        parallel::map_light(sorted.len(), |i| sorted[i] as u32)
+    }
 }
 
 /// Number of items in a block.
@@ -95,8 +119,8 @@ pub(crate) const WIDTH: usize = 8;
 /// No group.
 pub(crate) const NO_GROUP: u32 = u32::MAX;
 
-/// Eight boxes in 32 bits, rounded outwards, side by side: one box is tested against all of them at once. What they
-/// let through is tested again in 64 bits.
+/// Eight boxes in 32 bits, rounded outwards: coordinates should not be far from 0 beside the boxes' sizes. They lie
+/// side by side: one box is tested against all of them at once.
 #[derive(Clone, Copy, Debug)]
 struct Block<const D: usize> {
     lo: [f32x8; D],
@@ -104,15 +128,25 @@ struct Block<const D: usize> {
 }
 
 impl<const D: usize> Block<D> {
-    fn new(boxes: &[Aabb<D>]) -> Self {
+    /// Up to eight boxes; the others are empty.
+    fn of(boxes: impl Iterator<Item = Near<D>>) -> Self {
         let (mut lo, mut hi) = ([[f32::INFINITY; WIDTH]; D], [[f32::NEG_INFINITY; WIDTH]; D]);
-        for (i, b) in boxes.iter().enumerate() {
-            let near = Near::new(b);
+        for (i, b) in boxes.take(WIDTH).enumerate() {
             for k in 0..D {
-                (lo[k][i], hi[k][i]) = (near.lo[k], near.hi[k]);
+                (lo[k][i], hi[k][i]) = (b.lo[k], b.hi[k]);
             }
         }
         Self { lo: lo.map(f32x8::from), hi: hi.map(f32x8::from) }
+    }
+
+    /// The box around all eight.
+    fn hull(&self) -> Near<D> {
+        let least = |x: &f32x8| x.as_array().iter().fold(f32::INFINITY, |a, &b| a.min(b));
+        let most = |x: &f32x8| x.as_array().iter().fold(f32::NEG_INFINITY, |a, &b| a.max(b));
+        Near {
+            lo: std::array::from_fn(|k| least(&self.lo[k])),
+            hi: std::array::from_fn(|k| most(&self.hi[k])),
+        }
     }
 
     /// Box i.
@@ -133,7 +167,7 @@ impl<const D: usize> Block<D> {
 
 /// A box in 32 bits, rounded outwards.
 #[derive(Clone, Copy, Debug)]
-struct Near<const D: usize> {
+pub(crate) struct Near<const D: usize> {
     lo: [f32; D],
     hi: [f32; D],
 }
@@ -144,11 +178,11 @@ impl<const D: usize> Near<D> {
     }
 }
 
-/// An `f32` that is not above x: twice the error of rounding to nearest, and a tiny number, below it. Infinities stay,
-/// or become no number when they make a box empty.
+/// An `f32` that is not above x, and x itself where it is one. Without a branch: half of all numbers are rounded up.
 fn below(x: f64) -> f32 {
     let near = x as f32;
-    near - near.abs() * f32::EPSILON - f32::MIN_POSITIVE
+    let lower = near - near.abs() * f32::EPSILON - f32::MIN_POSITIVE;
+    if f64::from(near) > x { lower.min(f32::MAX) } else { near }
 }
 
 fn above(x: f64) -> f32 {
@@ -169,69 +203,124 @@ fn bits_of(mut bits: u8) -> impl Iterator<Item = usize> {
 pub(crate) struct BoxTree<const D: usize = 3> {
     /// Item at each leaf.
     items: Vec<u32>,
-    /// The boxes of each level by blocks of eight.
+    /// The boxes of each level by blocks of eight. Level 0 holds the leaves'; a box of level k + 1 encloses a block of
+    /// level k.
     blocks: Vec<Vec<Block<D>>>,
-    /// Level 0 holds the leaves' boxes; a box of level k + 1 encloses eight of level k.
-    levels: Vec<Vec<Aabb<D>>>,
     /// The group that everything under a node belongs to, or `NO_GROUP`; empty when there are no groups.
     groups: Vec<Vec<u32>>,
-    /// Marks of each leaf; empty when there are none.
-    marks: Vec<[u32; 3]>,
+    /// The place of each item along the curve; empty when that is the order of the leaves.
+    ranks: Vec<u32>,
 }
 
-/// No mark.
-pub(crate) const NO_MARK: u32 = u32::MAX;
-
-fn share_a_mark(a: &[u32; 3], b: &[u32; 3]) -> bool {
-    let is_among = |mark: u32| (mark == a[0]) | (mark == a[1]) | (mark == a[2]);
-    b.iter().fold(false, |share, &mark| share | ((mark != NO_MARK) & is_among(mark)))
+/// The order of boxes along a curve through another one, and the boxes in 32 bits.
+fn along_curve<const D: usize>(
+    all: &Aabb<D>,
+    n: usize,
+    box_of: impl Fn(u32) -> Aabb<D> + Sync + Send,
+) -> (Vec<u32>, Vec<Near<D>>) {
+    let curve = Curve::through(all);
+    let (upper, near): (Vec<u64>, Vec<Near<D>>) = parallel::unzip_light(n, |i| {
+        let b = box_of(i as u32);
+        (curve.upper(&b, i as u32), Near::new(&b))
+    });
+    (curve.sorted(&upper, box_of), near)
 }
+
+/// Items in the given order, but each group where its first item is, and the places that they had, by item; the
+/// latter empty when there are no groups. O(n).
+fn side_by_side(items: &[u32], group_of: impl Fn(u32) -> u32) -> (Vec<u32>, Vec<u32>) {
+    let n_groups = items.iter().map(|&item| group_of(item).wrapping_add(1)).max().unwrap_or(0);
+    if n_groups == 0 {
+        return (items.to_vec(), Vec::new());
+    }
+    let mut place_of_group = vec![None; n_groups as usize];
+    let (mut places, mut n) = (Vec::with_capacity(items.len()), 0);
+    for &item in items {
+        let known = match group_of(item) {
+            NO_GROUP => &mut None,
+            group => &mut place_of_group[group as usize],
+        };
+        let place = *known.get_or_insert(n);
+        n += u32::from(place == n);
+        places.push(place);
+    }
+    let mut ranks = vec![0; items.len()];
+    items.iter().zip(0..).for_each(|(&item, rank)| ranks[item as usize] = rank);
+    let order: Vec<u32> = (0..items.len() as u32).collect();
+    let (_, order) = sorted_by_place(n as usize, &order, |&i| places[i as usize] as usize);
+    (order.into_iter().map(|i| items[i as usize]).collect(), ranks)
+}
+
+/// A node: its level, and its number there.
+type Node = (usize, usize);
 
 impl<const D: usize> BoxTree<D> {
     /// O(n log n).
     pub(crate) fn new(boxes: &[Aabb<D>]) -> Self {
-        Self::over(z_order(boxes.len(), |i| boxes[i as usize]), |i| boxes[i as usize])
+        Self::within(&hull(boxes.len(), |i| boxes[i as usize]), boxes.len(), |i| boxes[i as usize])
+    }
+
+    /// A tree of n boxes that all lie in another one. O(n log n).
+    fn within(all: &Aabb<D>, n: usize, box_of: impl Fn(u32) -> Aabb<D> + Sync + Send) -> Self {
+        let (items, near) = along_curve(all, n, box_of);
+        Self::of_near(items, |i| near[i as usize])
+    }
+
+    /// The same with some items in groups: those of one are side by side, and no pairs.
+    pub(crate) fn grouped(
+        all: &Aabb<D>,
+        n: usize,
+        box_of: impl Fn(u32) -> Aabb<D> + Sync + Send,
+        group_of: impl Fn(u32) -> u32 + Sync + Send,
+    ) -> Self {
+        let (items, near) = along_curve(all, n, box_of);
+        let (layout, ranks) = side_by_side(&items, &group_of);
+        let mut tree = Self::of_near(layout, |i| near[i as usize]).with_groups(group_of);
+        tree.ranks = ranks;
+        tree
     }
 
     /// A tree with its leaves in a given order. O(n).
     pub(crate) fn over(items: Vec<u32>, box_of: impl Fn(u32) -> Aabb<D> + Sync + Send) -> Self {
-        let mut levels = vec![parallel::map_light(items.len(), |i| box_of(items[i]))];
-        while let Some(below) = levels.last().filter(|level| level.len() > 1) {
-            let hull = |c: &[Aabb<D>]| c.iter().fold(Aabb::EMPTY, |a, b| a.joined(b));
+        Self::of_near(items, |i| Near::new(&box_of(i)))
+    }
+
+    fn of_near(items: Vec<u32>, box_of: impl Fn(u32) -> Near<D> + Sync + Send) -> Self {
+        let leaves = parallel::map_light(items.len().div_ceil(WIDTH), |i| {
+            Block::of(items[i * WIDTH..].iter().map(|&item| box_of(item)))
+        });
+        let mut blocks = vec![leaves];
+        while let Some(below) = blocks.last().filter(|level| level.len() > 1) {
             let level = parallel::map_light(below.len().div_ceil(WIDTH), |i| {
-                hull(&below[i * WIDTH..((i + 1) * WIDTH).min(below.len())])
+                Block::of(below[i * WIDTH..].iter().map(Block::hull))
             });
-            levels.push(level);
+            blocks.push(level);
         }
-        let blocks_of = |level: &Vec<Aabb<D>>| {
-            parallel::map_light(level.len().div_ceil(WIDTH), |i| {
-                Block::new(&level[i * WIDTH..((i + 1) * WIDTH).min(level.len())])
-            })
-        };
-        let blocks = levels.iter().map(blocks_of).collect();
-        Self { items, blocks, levels, groups: Vec::new(), marks: Vec::new() }
+        Self { items, blocks, groups: Vec::new(), ranks: Vec::new() }
     }
 
     /// The tree with some items in groups: pairs of one group need not be visited, and whole subtrees of them are
     /// passed over.
-    pub(crate) fn with_groups(mut self, group_of: impl Fn(u32) -> u32) -> Self {
+    pub(crate) fn with_groups(mut self, group_of: impl Fn(u32) -> u32 + Sync + Send) -> Self {
         let same = |c: &[u32]| if c.iter().all(|&g| g == c[0]) { c[0] } else { NO_GROUP };
-        self.groups = vec![self.items.iter().map(|&i| group_of(i)).collect()];
-        for k in 1..self.levels.len() {
+        self.groups = vec![parallel::map_light(self.items.len(), |leaf| group_of(self.items[leaf]))];
+        for k in 1..=self.blocks.len() {
             let level = self.groups[k - 1].chunks(WIDTH).map(same).collect();
             self.groups.push(level);
         }
         self
     }
 
-    /// The tree with marks on its items: those that share one are no pair.
-    pub(crate) fn with_marks(mut self, marks_of: impl Fn(u32) -> [u32; 3]) -> Self {
-        self.marks = self.items.iter().map(|&i| marks_of(i)).collect();
-        self
+    /// The number of nodes of a level; level 0 are the leaves.
+    fn n_nodes(&self, level: usize) -> usize {
+        if level == 0 { self.items.len() } else { self.blocks[level - 1].len() }
     }
 
-    fn are_settled(&self, this: usize, other: usize) -> bool {
-        !self.marks.is_empty() && share_a_mark(&self.marks[this], &self.marks[other])
+    /// The box of a node.
+    fn near(&self, (level, i): Node) -> Near<D> {
+        self.blocks
+            .get(level)
+            .map_or_else(|| self.blocks[level - 1][i].hull(), |b| b[i / WIDTH].at(i % WIDTH))
     }
 
     /// Whether all leaves under a node are of one group.
@@ -239,9 +328,9 @@ impl<const D: usize> BoxTree<D> {
         group != NO_GROUP && self.groups[level][i] == group
     }
 
-    /// The group that all leaves of a block belong to.
-    fn group_of_block(&self, block: usize) -> u32 {
-        self.groups.get(1).map_or(NO_GROUP, |level| level[block])
+    /// The group that all leaves under a node belong to.
+    fn group_of(&self, level: usize, i: usize) -> u32 {
+        self.groups.get(level).map_or(NO_GROUP, |level| level[i])
     }
 
     /// The items in the order of the leaves.
@@ -249,9 +338,9 @@ impl<const D: usize> BoxTree<D> {
         &self.items
     }
 
-    /// Calls `visit` with each item whose box meets `target`.
+    /// Calls `visit` with each item whose box meets `target` up to rounding.
     pub(crate) fn query(&self, target: &Aabb<D>, mut visit: impl FnMut(u32)) {
-        self.leaves(target, 0, NO_GROUP, &mut |leaf| visit(self.items[leaf]));
+        self.leaves(&Near::new(target), 0, NO_GROUP, &mut |leaf| visit(self.items[leaf]));
     }
 
     /// Calls `visit` with items whose boxes meet `target`, those that reach farther right first. The call is given
@@ -265,16 +354,21 @@ impl<const D: usize> BoxTree<D> {
         mut bound: f64,
         mut visit: impl FnMut(u32, f64) -> f64,
     ) {
-        let top = self.levels.len() - 1;
+        let near = Near::new(target);
         let mut heap = BinaryHeap::new();
-        let add = |heap: &mut BinaryHeap<Reach>, bound: f64, level: usize, nodes: Range<usize>| {
-            for (node, i) in self.levels[level][nodes.clone()].iter().zip(nodes) {
-                if node.hi[0] >= bound && node.meets(target) {
-                    heap.push(Reach { x: node.hi[0], level, i });
+        let add = |heap: &mut BinaryHeap<Reach>, bound: f64, level: usize, block: usize| {
+            let children = &self.blocks[level][block];
+            for bit in bits_of(children.meeting(&near)) {
+                let x = f64::from(children.hi[0].as_array()[bit]);
+                if x >= bound {
+                    heap.push(Reach { x, level, i: block * WIDTH + bit });
                 }
             }
         };
-        add(&mut heap, bound, top, 0..self.levels[top].len());
+        let top = self.blocks.len() - 1;
+        if !self.items.is_empty() {
+            add(&mut heap, bound, top, 0);
+        }
         while let Some(Reach { x, level, i }) = heap.pop() {
             if x < bound {
                 return;
@@ -282,31 +376,25 @@ impl<const D: usize> BoxTree<D> {
             if level == 0 {
                 bound = visit(self.items[i], bound);
             } else {
-                let end = ((i + 1) * WIDTH).min(self.levels[level - 1].len());
-                add(&mut heap, bound, level - 1, i * WIDTH..end);
+                add(&mut heap, bound, level - 1, i);
             }
         }
     }
 
-    /// Calls `visit` with each leaf at or after `first` whose box meets `target` and that is not of a group.
-    fn leaves(&self, target: &Aabb<D>, first: usize, group: u32, visit: &mut impl FnMut(usize)) {
-        let near = Near::new(target);
-        let is_wanted =
-            |level: usize, i: usize| self.levels[level][i].meets(target) && !self.is_within(group, level, i);
-        let top = self.levels.len() - 1;
+    /// Calls `visit` with each leaf at or after `first` whose box meets `near` and that is not of a group.
+    fn leaves(&self, near: &Near<D>, first: usize, group: u32, visit: &mut impl FnMut(usize)) {
+        if self.items.is_empty() {
+            return;
+        }
         // At most seven nodes of each level wait while their sister is searched.
-        let mut stack: Vec<(usize, usize)> = Vec::with_capacity(WIDTH * self.levels.len());
-        stack.extend((0..self.levels[top].len()).filter(|&i| is_wanted(top, i)).map(|i| (top, i)));
+        let mut stack: Vec<Node> = Vec::with_capacity(WIDTH * self.blocks.len());
+        stack.push((self.blocks.len(), 0));
         while let Some((level, i)) = stack.pop() {
-            if level == 0 {
-                visit(i);
-                continue;
-            }
             let below = level - 1;
             // A subtree whose last leaf comes before `first` is of no use.
             let from = first / WIDTH.pow(below as u32);
-            let children = bits_of(self.blocks[below][i].meeting(&near)).map(|bit| i * WIDTH + bit);
-            let wanted = children.filter(|&c| from <= c && is_wanted(below, c));
+            let children = bits_of(self.blocks[below][i].meeting(near)).map(|bit| i * WIDTH + bit);
+            let wanted = children.filter(|&c| from <= c && !self.is_within(group, below, c));
             if below == 0 {
                 wanted.for_each(&mut *visit);
             } else {
@@ -332,35 +420,98 @@ impl<const D: usize> BoxTree<D> {
         self.items[block * WIDTH]
     }
 
-    /// Calls `visit` with each pair of items whose boxes meet, one in the block, the other after it in the tree's
-    /// order. Over all blocks every pair comes once, but for pairs with a mark in common; pairs of one group may be left
-    /// out.
+    /// Calls `visit` with each pair of items whose boxes meet up to rounding, one in the block, the other after it in
+    /// the tree's order. Over all blocks every pair comes once; pairs of one group may be left out.
     pub(crate) fn pairs_of_block(&self, block: usize, mut visit: impl FnMut(u32, u32)) {
-        let leaves = &self.levels[0];
-        let (from, to) = (block * WIDTH, ((block + 1) * WIDTH).min(leaves.len()));
-        let hull = leaves[from..to].iter().fold(Aabb::EMPTY, |a, b| a.joined(b));
-        self.leaves(&hull, from, self.group_of_block(block), &mut |other| {
-            let near = self.blocks[0][other / WIDTH].at(other % WIDTH);
-            let before = if other < to { (1 << (other - from)) - 1 } else { u8::MAX };
-            for this in bits_of(self.blocks[0][block].meeting(&near) & before).map(|bit| from + bit) {
-                if !self.are_settled(this, other) && leaves[this].meets(&leaves[other]) {
-                    visit(self.items[this], self.items[other]);
-                }
-            }
+        let hull = self.near((1, block));
+        self.leaves(&hull, block * WIDTH, self.group_of(1, block), &mut |other| {
+            self.pairs_with(block, other, &mut visit);
         });
     }
 
-    /// All pairs of items whose boxes meet, each once, the smaller first. O(n log n + pairs).
-    pub(crate) fn pairs(&self, course: &Course) -> Result<Vec<[u32; 2]>, Cancelled> {
-        let (n_chunks, range) = parallel::chunks(self.n_blocks(), 64);
-        let parts = course.map(n_chunks, |chunk| {
+    /// The pairs of a leaf with those of a block that come before it.
+    fn pairs_with(&self, block: usize, other: usize, visit: &mut impl FnMut(u32, u32)) {
+        let from = block * WIDTH;
+        let before = if other < from + WIDTH { (1 << (other - from)) - 1 } else { u8::MAX };
+        for bit in bits_of(self.blocks[0][block].meeting(&self.near((0, other))) & before) {
+            visit(self.items[from + bit], self.items[other]);
+        }
+    }
+
+    /// All pairs of items whose boxes meet up to rounding and for which `is_wanted` holds, each once, the smaller first;
+    /// pairs of one group may be left out. O(n log n + pairs).
+    pub(crate) fn pairs(
+        &self,
+        course: &Course,
+        is_wanted: impl Fn(u32, u32) -> bool + Sync + Send,
+    ) -> Result<Vec<[u32; 2]>, Cancelled> {
+        // Nodes that hold some hundred leaves, or fewer in a small tree.
+        let level = (self.blocks.len() - 1).clamp(1, 3);
+        let parts = course.map(self.n_nodes(level), |i| {
+            let mut blocks = Vec::new();
+            self.meeting_blocks((level, i), (self.blocks.len(), 0), &mut blocks);
+            blocks.sort_unstable();
             let mut found = Vec::new();
-            for block in range(chunk).take_while(|_| !course.is_cancelled()) {
-                self.pairs_of_block(block, |i, j| found.push([i.min(j), i.max(j)]));
+            for [this, other] in blocks.into_iter().take_while(|_| !course.is_cancelled()) {
+                self.pairs_of_blocks(this as usize, other as usize, &mut |i, j| {
+                    if is_wanted(i, j) {
+                        found.push([i.min(j), i.max(j)]);
+                    }
+                });
             }
             found
         })?;
-        Ok(parts.concat())
+        let mut pairs = parts.concat();
+        if !self.ranks.is_empty() {
+            // The order that there would be without groups: what is found of these shows in no result.
+            pairs.sort_unstable_by_key(|pair| {
+                let [a, b] = pair.map(|item| self.ranks[item as usize]);
+                (a.min(b) / WIDTH as u32, a.max(b), a.min(b))
+            });
+        }
+        Ok(pairs)
+    }
+
+    /// The pairs of two blocks, or of one.
+    fn pairs_of_blocks(&self, block: usize, other: usize, visit: &mut impl FnMut(u32, u32)) {
+        let hull = self.near((1, block));
+        let group = self.group_of(1, block);
+        for bit in bits_of(self.blocks[0][other].meeting(&hull)) {
+            let leaf = other * WIDTH + bit;
+            if !self.is_within(group, 0, leaf) {
+                self.pairs_with(block, leaf, visit);
+            }
+        }
+    }
+
+    /// The pairs of a block under `this` with itself or one after it under `other` that are not of one group: `other` is
+    /// above `this`, or as high and not before it.
+    fn meeting_blocks(&self, this: Node, other: Node, found: &mut Vec<[u32; 2]>) {
+        let group = self.group_of(this.0, this.1);
+        if self.is_within(group, other.0, other.1) {
+            return;
+        }
+        if this.0 < other.0 {
+            let below = other.0 - 1;
+            let near = self.near(this);
+            // What ends before `this` begins has been paired with it.
+            let from = this.1 / WIDTH.pow((below - this.0) as u32);
+            for bit in bits_of(self.blocks[below][other.1].meeting(&near)) {
+                let child = other.1 * WIDTH + bit;
+                if child >= from {
+                    self.meeting_blocks(this, (below, child), found);
+                }
+            }
+        } else if this.0 <= 1 {
+            found.push([this.1 as u32, other.1 as u32]);
+        } else {
+            let below = this.0 - 1;
+            let children = this.1 * WIDTH..((this.1 + 1) * WIDTH).min(self.n_nodes(below));
+            let wanted = self.blocks[below][this.1].meeting(&self.near(other));
+            for child in bits_of(wanted).map(|bit| children.start + bit) {
+                self.meeting_blocks((below, child), other, found);
+            }
+        }
     }
 }
 
@@ -407,7 +558,7 @@ mod tests {
             }
             expected.sort_unstable();
             let tree = BoxTree::new(&boxes);
-            let mut found = tree.pairs(&Course::new(Control::default(), &[])).unwrap();
+            let mut found = tree.pairs(&Course::new(Control::default(), &[]), |_, _| true).unwrap();
             found.sort_unstable();
             prop_assert_eq!(found, expected);
             if let Some(target) = boxes.first() {

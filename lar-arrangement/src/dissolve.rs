@@ -58,14 +58,12 @@ pub(crate) fn dissolve(skeleton: &Skeleton, rings: &Cells, soup: &Soup, merge: M
         *first = (*first).min(old);
     }
     let is_corner = |v: u32| matches!(skeleton.vertices[v as usize].def, VertexDef::Point(_));
-    let candidates = skeleton
-        .edges
-        .iter()
-        .zip(&removed)
-        .filter(|(_, removed)| **removed)
-        .flat_map(|(ends, _)| *ends)
-        .filter(|&v| merge == Merge::Coplanar || !is_corner(v));
-    let mut vertices = merge::with_two_edges(&skeleton.edges, &removed, candidates);
+    let mut is_candidate = vec![false; skeleton.vertices.len()];
+    for (ends, _) in skeleton.edges.iter().zip(&removed).filter(|(_, removed)| **removed) {
+        ends.iter().for_each(|&v| is_candidate[v as usize] = merge == Merge::Coplanar || !is_corner(v));
+    }
+    let mut vertices =
+        merge::with_two_edges(is_candidate.len(), &skeleton.edges, &removed, |v| is_candidate[v as usize]);
     // Where a segment lies in a polygon up to a soft edge and leaves it there, it ends inside of the new face.
     let around = |edge: u32| {
         let mut faces: Vec<u32> = rings[edge as usize].iter().map(|s| new_face[(s / 2) as usize]).collect();

@@ -9,10 +9,9 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 pub(crate) fn first_of_edge(n_points: usize, tails: &[u32], heads: &[u32]) -> Vec<u32> {
     let first: Vec<AtomicU32> = (0..tails.len()).map(|_| AtomicU32::new(0)).collect();
     // Every part reads all half-edges and sorts those of its points: as many parts as there are threads.
-    let n_parts = parallel::n_threads();
-    parallel::map(n_parts, |part| {
-        let (from, to) = (n_points * part / n_parts, n_points * (part + 1) / n_parts);
-        join_edges_at(from as u32, to as u32, tails, heads, &first);
+    parallel::map(parallel::n_threads(), |part| {
+        let points = parallel::part_of(n_points, part);
+        join_edges_at(points.start as u32, points.end as u32, tails, heads, &first);
     });
     first.into_iter().map(AtomicU32::into_inner).collect()
 }

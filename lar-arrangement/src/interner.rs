@@ -20,8 +20,14 @@ impl Interner {
     /// The points of the input, in their order. Grid points are looked up by their integer coordinates and need no
     /// other keys.
     pub(crate) fn new(geometry: &Geometry, grid_points: PointTable) -> Self {
-        let mut interner = Self { grid_points, ..Self::default() };
-        for p in 0..geometry.n_points() as u32 {
+        let n = geometry.n_points();
+        let mut interner = Self {
+            vertices: Vec::with_capacity(n + n / 8),
+            next_at: Vec::with_capacity(n + n / 8),
+            grid_points,
+            ..Self::default()
+        };
+        for p in 0..n as u32 {
             let vertex = geometry.point_vertex(p);
             if geometry.grid_point(p).is_some() {
                 interner.vertices.push(vertex);

@@ -4,6 +4,7 @@ mod arrangement;
 mod boolean;
 mod boxes;
 mod canonical;
+mod charts;
 mod check;
 mod coplanar;
 mod counting;

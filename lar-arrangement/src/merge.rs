@@ -110,24 +110,29 @@ fn first_old_faces(removal: &Removal) -> Vec<u32> {
 /// No half-edge, no face.
 const NONE: u32 = u32::MAX;
 
-/// For candidate vertices: those with exactly two remaining edges, with these edges.
+/// The candidates among the vertices with exactly two remaining edges, with these edges. O(edges).
 pub(crate) fn with_two_edges(
+    n_vertices: usize,
     edges: &[[u32; 2]],
     removed: &[bool],
-    candidates: impl IntoIterator<Item = u32>,
+    is_candidate: impl Fn(u32) -> bool,
 ) -> FxHashMap<u32, [u32; 2]> {
-    let mut remaining: FxHashMap<u32, Vec<u32>> = candidates.into_iter().map(|v| (v, Vec::new())).collect();
-    if remaining.is_empty() {
+    let remaining =
+        || edges.iter().zip(0u32..).zip(removed).filter(|(_, removed)| !**removed).map(|(edge, _)| edge);
+    let mut degree = vec![0u32; n_vertices];
+    for (ends, _) in remaining() {
+        ends.iter().for_each(|&v| degree[v as usize] += 1);
+    }
+    if !degree.contains(&2) {
         return FxHashMap::default();
     }
-    for ((ends, edge), _) in edges.iter().zip(0..).zip(removed).filter(|(_, removed)| !**removed) {
-        for v in ends {
-            if let Some(edges) = remaining.get_mut(v) {
-                edges.push(edge);
-            }
+    let mut found: FxHashMap<u32, [u32; 2]> = FxHashMap::default();
+    for (ends, edge) in remaining() {
+        for &v in ends.iter().filter(|&&v| degree[v as usize] == 2 && is_candidate(v)) {
+            found.entry(v).or_insert([edge; 2])[1] = edge;
         }
     }
-    remaining.into_iter().filter_map(|(v, edges)| Some((v, edges.try_into().ok()?))).collect()
+    found
 }
 
 /// Keeps the edges inside of new faces that would be none: where one remaining half-edge stands in two of the faces

@@ -115,10 +115,33 @@ pub(crate) fn map<R>(n: usize, f: impl Fn(usize) -> R) -> Vec<R> {
     (0..n).map(f).collect()
 }
 
+/// So many small items are worth another thread.
+const WORTH_A_THREAD: usize = 2048;
+
 /// As `map`, for work that takes less time than giving it to a thread.
 pub(crate) fn map_light<R: Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send) -> Vec<R> {
-    const WORTH_A_THREAD: usize = 2048;
     if n < WORTH_A_THREAD { (0..n).map(f).collect() } else { map(n, f) }
+}
+
+/// As `map_light`, for two results.
+#[cfg(feature = "rayon")]
+pub(crate) fn unzip_light<A: Send, B: Send>(
+    n: usize,
+    f: impl Fn(usize) -> (A, B) + Sync + Send,
+) -> (Vec<A>, Vec<B>) {
+    use rayon::prelude::*;
+    if n < WORTH_A_THREAD || n_threads() == 1 {
+        return (0..n).map(f).unzip();
+    }
+    let (mut a, mut b) = (Vec::new(), Vec::new());
+    (0..n).into_par_iter().map(f).unzip_into_vecs(&mut a, &mut b);
+    (a, b)
+}
+
+/// As `map_light`, for two results.
+#[cfg(not(feature = "rayon"))]
+pub(crate) fn unzip_light<A, B>(n: usize, f: impl Fn(usize) -> (A, B)) -> (Vec<A>, Vec<B>) {
+    (0..n).map(f).unzip()
 }
 
 /// Runs both, and returns both results.
@@ -232,6 +255,21 @@ pub(crate) fn select(n: usize, keep: impl Fn(u32) -> bool + Sync + Send) -> Vec<
     let (n_chunks, range) = chunks(n, 1 << 14);
     let kept = |i| range(i).map(|x| x as u32).filter(|&x| keep(x)).collect();
     concat(&map(n_chunks, kept))
+}
+
+/// Adds items to a list, which becomes theirs when it was empty.
+pub(crate) fn append<T>(all: &mut Vec<T>, mut more: Vec<T>) {
+    if all.is_empty() {
+        *all = more;
+    } else {
+        all.append(&mut more);
+    }
+}
+
+/// One of as many parts of 0..n as there are threads: for work that is the same however it is divided.
+pub(crate) fn part_of(n: usize, part: usize) -> std::ops::Range<usize> {
+    let n_parts = n_threads();
+    n * part / n_parts..n * (part + 1) / n_parts
 }
 
 /// The ranges of at most `size` that make up 0..n.

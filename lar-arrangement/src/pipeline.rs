@@ -1,8 +1,9 @@
 //! The driver: surfaces in, arrangement out, stage by stage.
 
 use crate::arrangement::{Arrangement, SolidInfo};
-use crate::boxes::{Aabb, BoxTree};
+use crate::boxes::{self, Aabb, BoxTree};
 use crate::canonical::{self, Input, Report, Scan};
+use crate::charts::Charts;
 use crate::check;
 use crate::coplanar;
 use crate::crossing::{self, Contacts, Scratch};
@@ -21,7 +22,7 @@ use crate::stars::Stars;
 use crate::stats::Stats;
 use crate::tiles::{self, Merge};
 use crate::union_find::UnionFind;
-use crate::winding::{Jumps, Windings};
+use crate::winding::{Walls, Windings};
 use crate::wrap;
 use lar_core::{Cells, ChainComplex, Points, Precision, Surface};
 use std::num::NonZeroUsize;
@@ -307,34 +308,41 @@ impl<'a> Arranger<'a> {
     }
 }
 
-/// The boxes of the facets, larger by `reach` on all sides.
-fn facet_boxes(soup: &Soup, reach: f64) -> Vec<Aabb> {
-    parallel::map(soup.n_facets(), |f| {
-        let corners = soup.facet_edges[f].iter().map(|&e| soup.geometry.position(soup.directed(e)[0]));
-        let tight = Aabb::around(corners);
-        Aabb { lo: tight.lo.map(|x| x - reach), hi: tight.hi.map(|x| x + reach) }
-    })
+/// The tree of the facets' boxes, larger by `reach` on all sides.
+fn facet_tree(soup: &Soup, charts: &Charts, reach: f64) -> BoxTree {
+    let larger = |b: Aabb| Aabb { lo: b.lo.map(|x| x - reach), hi: b.hi.map(|x| x + reach) };
+    let position = |p: u32| soup.geometry.position(p);
+    let around = |f: u32| match soup.facet_edges[f as usize].len() {
+        3 => Aabb::around(soup.geometry.base(f).map(position)),
+        _ => Aabb::around(soup.facet_edges[f as usize].iter().map(|&e| position(soup.directed(e)[0]))),
+    };
+    let n = soup.geometry.n_points();
+    let all = boxes::hull(n, |p| Aabb { lo: position(p), hi: position(p) });
+    BoxTree::grouped(&larger(all), soup.n_facets(), |f| larger(around(f)), |f| charts.of(f))
 }
 
 /// Which facets may have something in common.
 struct Meeting {
     tree: BoxTree,
+    charts: Charts,
     stars: Stars,
-    /// Those whose boxes meet, without those that a clean point settles.
+    /// Those whose boxes meet, without those that a chart or a clean point settles.
     pairs: Vec<[u32; 2]>,
 }
 
 impl Meeting {
     /// Boxes are larger by `reach`; `distance` is that of points that are nearly one.
     fn new(soup: &Soup, distance: f64, reach: f64, course: &Course) -> Result<Self, Cancelled> {
-        let stars = Stars::new(soup, distance);
-        let tree = BoxTree::new(&facet_boxes(soup, reach)).with_marks(|f| stars.marks(&soup.geometry, f));
-        let pairs = tree.pairs(course)?;
-        Ok(Self { tree, stars, pairs })
+        let charts = Charts::new(soup, distance, course)?;
+        let stars = Stars::new(soup, &charts, distance);
+        let tree = facet_tree(soup, &charts, reach);
+        let is_open = |f: u32, g: u32| !charts.are_one(f, g) && !stars.settle(&soup.geometry, f, g);
+        let pairs = tree.pairs(course, is_open)?;
+        Ok(Self { tree, charts, stars, pairs })
     }
 
     fn input<'a>(&'a self, soup: &'a Soup) -> Input<'a> {
-        Input { soup, pairs: &self.pairs, stars: &self.stars }
+        Input { soup, pairs: &self.pairs, charts: &self.charts, stars: &self.stars }
     }
 }
 
@@ -395,7 +403,7 @@ fn assemble(
     surfaces: &[Surface],
     mut soup: Soup,
     skeleton: Skeleton,
-    dissolved: Dissolved,
+    mut dissolved: Dissolved,
     shells: &Shells,
     (mut stats, course): (Stats, &Course),
 ) -> Result<Arrangement, Cancelled> {
@@ -409,13 +417,13 @@ fn assemble(
     let Parents { parents, offsets: parent_offsets, crossed: crossed_ends } =
         Parents::new(&soup, &skeleton, &dissolved);
     let coefficients = std::mem::take(&mut soup.coefficients);
-    let mut jumps = Jumps::new();
-    for (&begin, &end) in parent_offsets.iter().zip(&crossed_ends) {
+    let mut walls = Walls::new();
+    for ((&begin, &end), &cells) in parent_offsets.iter().zip(&crossed_ends).zip(&cells_of_face) {
         let coefficient = |p: &Parent| i32::from(coefficients[p.solid as usize][p.face as usize]);
         let of_face = parents[begin as usize..end as usize].iter();
-        jumps.push_face(of_face.map(|p| (p.solid, coefficient(p) * i32::from(p.sign))));
+        walls.push_face(cells, of_face.map(|p| (p.solid, coefficient(p) * i32::from(p.sign))));
     }
-    let windings = Windings::new(shells.n_cells as usize, surfaces.len(), &cells_of_face, &jumps);
+    let windings = Windings::new(shells.n_cells as usize, surfaces.len(), &walls);
     course.begin("complex", &mut stats)?;
     let plane_of_face = dissolved.old_face.iter().map(|&f| soup.plane_class(skeleton.facet(f))).collect();
     let facet_of_face = dissolved.old_face.iter().map(|&f| skeleton.facet(f)).collect();
@@ -424,9 +432,10 @@ fn assemble(
     } else {
         dissolved.merged.vertices.iter().map(|&v| skeleton.vertices[v as usize]).collect()
     };
-    let n_edges = dissolved.merged.edges.len();
+    let edges = std::mem::take(&mut dissolved.merged.edges);
+    let n_edges = edges.len();
     let (below, (boundary_2, boundary_3)) = parallel::join(
-        || (positions(&soup, &vertices), boundary_1(vertices.len(), dissolved.merged.edges.clone())),
+        || (positions(&soup, &vertices), boundary_1(vertices.len(), edges)),
         || {
             parallel::join(
                 || boundary_2(n_edges, &dissolved.merged),
@@ -480,7 +489,13 @@ struct Parents {
 
 impl Parents {
     fn new(soup: &Soup, skeleton: &Skeleton, dissolved: &Dissolved) -> Self {
-        let mut out = Self { parents: Vec::new(), offsets: vec![0], crossed: Vec::new() };
+        let n = dissolved.old_face.len();
+        let mut out = Self {
+            parents: Vec::with_capacity(n),
+            offsets: Vec::with_capacity(n + 1),
+            crossed: Vec::with_capacity(n),
+        };
+        out.offsets.push(0);
         let mut rest = dissolved.others.as_slice();
         for (&first, new) in dissolved.old_face.iter().zip(0..) {
             let begin = out.parents.len();
@@ -542,26 +557,63 @@ pub(crate) fn boundary_1(n_vertices: usize, edges: Vec<[u32; 2]>) -> lar_core::O
 }
 
 pub(crate) fn boundary_2(n_edges: usize, faces: &Merged) -> lar_core::Operator {
-    let mut columns = Cells::with_capacity(faces.face_loops.len() - 1, faces.loops.indices().len());
-    let mut signs = Vec::with_capacity(faces.loops.indices().len());
-    let (mut column, mut edges): (Vec<(u32, i8)>, Vec<u32>) = (Vec::new(), Vec::new());
-    for range in faces.face_loops.windows(2) {
-        column.clear();
-        for l in range[0]..range[1] {
-            column.extend(faces.loops[l as usize].iter().map(|&h| (h / 2, if h % 2 == 0 { 1 } else { -1 })));
-        }
-        column.sort_unstable();
-        edges.clear();
-        for same in column.chunk_by(|a, b| a.0 == b.0) {
-            // An edge that stands in the loops in both directions is no boundary.
-            if let &[(edge, sign)] = same {
-                edges.push(edge);
-                signs.push(sign);
+    let n_faces = faces.face_loops.len() - 1;
+    let parts = parallel::map(parallel::n_threads(), |part| {
+        let range = parallel::part_of(n_faces, part);
+        let mut columns =
+            Columns::with_capacity(faces.loops.indices().len() * range.len() / n_faces.max(1) + 8);
+        range.for_each(|face| {
+            columns.push(faces.face_loops[face] as usize..faces.face_loops[face + 1] as usize, faces);
+        });
+        columns
+    });
+    let Columns { ends, edges, signs, .. } = Columns::joined(parts);
+    ChainComplex::operator_from_columns(n_edges, Cells::from_parts(ends, edges), signs)
+}
+
+/// Columns of ∂2.
+struct Columns {
+    /// Where each column ends, after a 0.
+    ends: Vec<u32>,
+    edges: Vec<u32>,
+    signs: Vec<i8>,
+    /// The half-edges of a column.
+    scratch: Vec<u32>,
+}
+
+impl Columns {
+    fn with_capacity(n: usize) -> Self {
+        let (edges, signs) = (Vec::with_capacity(n), Vec::with_capacity(n));
+        Self { ends: vec![0], edges, signs, scratch: Vec::new() }
+    }
+
+    /// Adds the face with some loops. An edge that stands in them in both directions is no boundary.
+    fn push(&mut self, loops: std::ops::Range<usize>, faces: &Merged) {
+        let offsets = faces.loops.offsets();
+        let half_edges = &faces.loops.indices()[offsets[loops.start] as usize..offsets[loops.end] as usize];
+        self.scratch.clear();
+        self.scratch.extend_from_slice(half_edges);
+        self.scratch.sort_unstable();
+        for same in self.scratch.chunk_by(|a, b| a / 2 == b / 2) {
+            if let &[h] = same {
+                self.edges.push(h / 2);
+                self.signs.push(1 - 2 * (h % 2) as i8);
             }
         }
-        columns.push(&edges);
+        self.ends.push(self.edges.len() as u32);
     }
-    ChainComplex::operator_from_columns(n_edges, columns, signs)
+
+    fn joined(parts: Vec<Self>) -> Self {
+        let mut parts = parts.into_iter();
+        let mut all = parts.next().unwrap_or_else(|| Self::with_capacity(0));
+        for part in parts {
+            let base = all.edges.len() as u32;
+            all.ends.extend(part.ends[1..].iter().map(|end| base + end));
+            all.edges.extend(part.edges);
+            all.signs.extend(part.signs);
+        }
+        all
+    }
 }
 
 fn boundary_3(cells_of_face: &[[u32; 2]], n_cells: usize) -> lar_core::Operator {

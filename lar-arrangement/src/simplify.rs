@@ -10,6 +10,7 @@ use crate::merge::{self, Faces, Merged, Removal};
 use crate::pipeline::{boundary_1, boundary_2};
 use crate::progress::{Cancelled, Course, Plan};
 use crate::soup::Parent;
+use crate::split::offsets;
 use crate::stats::Stats;
 use crate::union_find::UnionFind;
 use lar_core::{Cells, ChainComplex, FaceId, Points};
@@ -39,7 +40,9 @@ pub struct SolidComplex {
     /// Vertices of the loops, the face on their left seen from outside.
     loops: Cells,
     face_loops: Vec<u32>,
-    parents: Vec<Vec<Parent>>,
+    parents: Vec<Parent>,
+    /// The parents of face f are `parent_offsets[f]..parent_offsets[f + 1]`.
+    parent_offsets: Vec<u32>,
     pieces: Vec<(FaceId, i8)>,
 }
 
@@ -47,7 +50,7 @@ impl SolidComplex {
     /// Number of faces.
     #[must_use]
     pub fn n_faces(&self) -> usize {
-        self.parents.len()
+        self.pieces.len()
     }
 
     /// Number of loops of all faces.
@@ -64,7 +67,8 @@ impl SolidComplex {
     /// The input faces that a face is made of pieces of; the sign is +1 where they look the same way.
     #[must_use]
     pub fn parents(&self, face: FaceId) -> &[Parent] {
-        &self.parents[face.index()]
+        let f = face.index();
+        &self.parents[self.parent_offsets[f] as usize..self.parent_offsets[f + 1] as usize]
     }
 
     /// The first of the arrangement's faces that a face is made of, and +1 where they look the same way, −1 where not.
@@ -130,13 +134,70 @@ pub(crate) fn surface(solid: &Solid<'_>, detail: Detail, course: &Course) -> Res
     };
     course.begin("loops", times)?;
     let points = solid.arrangement.complex().points();
-    let faces = surface.loops_of_faces();
-    let removal = Removal { edges: &removed, new_face: &new_face, n_new_faces, vertices: &straight };
-    let merged = merge::merge(&faces, &removal, |v| points.xyz(surface.vertices[v as usize] as usize));
+    let origins = Origins::new(&surface, &new_face, n_new_faces);
+    let (merged, vertices) = if removed.contains(&true) || !straight.is_empty() {
+        let removal = Removal { edges: &removed, new_face: &new_face, n_new_faces, vertices: &straight };
+        let position = |v: u32| points.xyz(surface.vertices[v as usize] as usize);
+        let mut merged = merge::merge(&surface.loops_of_faces(), &removal, position);
+        let kept = std::mem::take(&mut merged.vertices);
+        (merged, kept.into_iter().map(|v| surface.vertices[v as usize]).collect())
+    } else {
+        surface.unchanged()
+    };
     course.begin("complex", times)?;
-    let out = surface.finished(merged, &new_face, n_new_faces);
+    let out = finished(merged, origins, points, &vertices);
     course.finish(times);
     Ok(out)
+}
+
+/// A surface whose vertices are some of the points.
+fn finished(merged: Merged, origins: Origins, points: &Points, vertices: &[u32]) -> SolidComplex {
+    let dim = points.dim();
+    let mut coords = Vec::with_capacity(dim * vertices.len());
+    vertices.iter().for_each(|&v| coords.extend_from_slice(points.point(v as usize)));
+    let tail = |&h: &u32| merged.edges[(h / 2) as usize][(h % 2) as usize];
+    let tails = merged.loops.indices().iter().map(tail).collect();
+    let loops = Cells::from_parts(merged.loops.offsets().to_vec(), tails);
+    let boundary_2 = boundary_2(merged.edges.len(), &merged);
+    let boundary_1 = boundary_1(vertices.len(), merged.edges);
+    SolidComplex {
+        complex: ChainComplex::new(Points::from_columns(dim, coords), vec![boundary_1, boundary_2]),
+        loops,
+        face_loops: merged.face_loops,
+        parents: origins.parents,
+        parent_offsets: origins.parent_offsets,
+        pieces: origins.pieces,
+    }
+}
+
+/// Where the faces of a surface come from.
+struct Origins {
+    parents: Vec<Parent>,
+    parent_offsets: Vec<u32>,
+    /// The first face of the arrangement that is part of each.
+    pieces: Vec<(FaceId, i8)>,
+}
+
+impl Origins {
+    fn new(surface: &OutwardFaces<'_>, new_face: &[u32], n_new_faces: usize) -> Self {
+        let mut parents: Vec<(u32, Parent)> = Vec::with_capacity(surface.faces.len());
+        // New faces are numbered as their first pieces come.
+        let mut pieces = Vec::with_capacity(n_new_faces);
+        for (&(face, sign), &new) in surface.faces.iter().zip(new_face) {
+            if pieces.len() == new as usize {
+                pieces.push((face, sign));
+            }
+            let signed = |p: &Parent| (new, Parent { sign: p.sign * sign, ..*p });
+            parents.extend(surface.solid.arrangement.parents(face).iter().map(signed));
+        }
+        parents.sort_unstable();
+        parents.dedup();
+        Self {
+            parent_offsets: offsets(n_new_faces, parents.iter().map(|p| p.0)),
+            parents: parents.into_iter().map(|p| p.1).collect(),
+            pieces,
+        }
+    }
 }
 
 /// The boundary faces of a solid with vertices and edges numbered anew, all turned outwards.
@@ -148,39 +209,39 @@ struct OutwardFaces<'a> {
     loops: Cells,
     face_loops: Vec<u32>,
     /// The faces at each edge, by their numbers here.
-    around: Vec<Vec<u32>>,
+    around: Cells,
 }
 
 impl<'a> OutwardFaces<'a> {
     fn new(solid: &'a Solid<'a>, course: &Course) -> Result<Self, Cancelled> {
         let a = solid.arrangement;
         let faces: Vec<(FaceId, i8)> = solid.boundary().collect();
-        let of_face = |face: FaceId| a.face_loops(face).flatten().map(|h| h.edge.0);
-        let old_edges = compacted(faces.iter().flat_map(|&(face, _)| of_face(face)), a.n_edges());
+        let half_edges = || faces.iter().flat_map(|&(face, _)| a.loop_range(face)).flat_map(|l| &a.loops[l]);
+        let old_edges = compacted(half_edges().map(|h| h / 2), a.n_edges());
         course.go_on()?;
         let ends = |e: u32| [a.tail(2 * e), a.tail(2 * e + 1)];
         let vertices = compacted(old_edges.list.iter().flat_map(|&e| ends(e)), a.n_vertices());
         let edges: Vec<[u32; 2]> =
             old_edges.list.iter().map(|&e| ends(e).map(|v| vertices.new[v as usize])).collect();
-        let (mut loops, mut face_loops) = (Cells::new(), vec![0]);
-        let mut around = vec![Vec::new(); edges.len()];
-        let mut renamed = Vec::new();
+        let mut loops = Cells::with_capacity(faces.len(), 3 * faces.len());
+        let mut face_loops = Vec::with_capacity(faces.len() + 1);
+        face_loops.push(0);
+        let mut renamed: Vec<u32> = Vec::new();
         course.walk(faces.len(), CHUNK, |face| {
             let (old, sign) = faces[face];
-            for cycle in a.face_loops(old) {
+            for l in a.loop_range(old) {
+                let new = a.loops[l].iter().map(|h| 2 * old_edges.new[(h / 2) as usize] + h % 2);
                 renamed.clear();
-                let reversed = sign < 0;
-                renamed.extend(
-                    cycle.map(|h| 2 * old_edges.new[h.edge.index()] + u32::from(h.reversed != reversed)),
-                );
-                if reversed {
-                    renamed.reverse();
+                if sign > 0 {
+                    renamed.extend(new);
+                } else {
+                    renamed.extend(new.rev().map(|h| h ^ 1));
                 }
-                renamed.iter().for_each(|h| around[(h / 2) as usize].push(face as u32));
                 loops.push(&renamed);
             }
             face_loops.push(loops.len() as u32);
         })?;
+        let around = faces_around(edges.len(), &loops, &face_loops);
         Ok(Self { solid, faces, vertices: vertices.list, edges, loops, face_loops, around })
     }
 
@@ -237,7 +298,7 @@ impl<'a> OutwardFaces<'a> {
             faces.sort_unstable();
             faces
         };
-        let mut candidates = merge::with_two_edges(&self.edges, removed, 0..self.vertices.len() as u32);
+        let mut candidates = merge::with_two_edges(self.vertices.len(), &self.edges, removed, |_| true);
         candidates.retain(|_, [e, f]| {
             let (a, b) = (sides(*e), sides(*f));
             a == b && a.len() >= 2 && a[0] != a[a.len() - 1]
@@ -245,42 +306,37 @@ impl<'a> OutwardFaces<'a> {
         candidates
     }
 
-    fn finished(&self, merged: Merged, new_face: &[u32], n_new_faces: usize) -> SolidComplex {
-        let (parents, pieces) = self.origins(new_face, n_new_faces);
-        let points = self.solid.arrangement.complex().points();
-        let at = |v: &u32| points.xyz(self.vertices[*v as usize] as usize);
-        let positions: Vec<[f64; 3]> = merged.vertices.iter().map(at).collect();
-        let tail = |&h: &u32| merged.edges[(h / 2) as usize][(h % 2) as usize];
-        let loops = merged.loops.iter().map(|cycle| cycle.iter().map(tail).collect::<Vec<u32>>()).collect();
-        let boundaries =
-            vec![boundary_1(positions.len(), merged.edges.clone()), boundary_2(merged.edges.len(), &merged)];
-        SolidComplex {
-            complex: ChainComplex::new(Points::from_xyz(&positions), boundaries),
-            loops,
-            face_loops: merged.face_loops,
-            parents,
-            pieces,
-        }
+    /// The surface as it is, and the points that its vertices are.
+    fn unchanged(self) -> (Merged, Vec<u32>) {
+        let merged = Merged {
+            vertices: Vec::new(),
+            edges: self.edges,
+            old_half_edge: Vec::new(),
+            loops: self.loops,
+            face_loops: self.face_loops,
+        };
+        (merged, self.vertices)
     }
+}
 
-    /// For each new face its parents, and the first face of the arrangement that is part of it.
-    fn origins(&self, new_face: &[u32], n_new_faces: usize) -> (Vec<Vec<Parent>>, Vec<(FaceId, i8)>) {
-        let mut parents: Vec<Vec<Parent>> = vec![Vec::new(); n_new_faces];
-        // New faces are numbered as their first pieces come.
-        let mut pieces = Vec::with_capacity(n_new_faces);
-        for (&(face, sign), &new) in self.faces.iter().zip(new_face) {
-            if pieces.len() == new as usize {
-                pieces.push((face, sign));
-            }
-            let signed = |p: &Parent| Parent { sign: p.sign * sign, ..*p };
-            parents[new as usize].extend(self.solid.arrangement.parents(face).iter().map(signed));
-        }
-        for list in &mut parents {
-            list.sort_unstable();
-            list.dedup();
-        }
-        (parents, pieces)
+/// The faces at each edge, ascending.
+fn faces_around(n_edges: usize, loops: &Cells, face_loops: &[u32]) -> Cells {
+    let mut offsets = vec![0u32; n_edges + 2];
+    loops.indices().iter().for_each(|h| offsets[(h / 2) as usize + 2] += 1);
+    for i in 2..offsets.len() {
+        offsets[i] += offsets[i - 1];
     }
+    // offsets[i + 1] is where the next face at edge i goes; in the end, where those of i + 1 begin.
+    let mut faces = vec![0; loops.indices().len()];
+    for (range, face) in face_loops.windows(2).zip(0..) {
+        for h in (range[0]..range[1]).flat_map(|l| &loops[l as usize]) {
+            let at = &mut offsets[(h / 2) as usize + 1];
+            faces[*at as usize] = face;
+            *at += 1;
+        }
+    }
+    offsets.pop();
+    Cells::from_parts(offsets, faces)
 }
 
 /// Distinct numbers in ascending order, and the place of each in that list.

@@ -56,11 +56,18 @@ impl Skeleton {
         let n_cut: usize = fragments.iter().map(|part| part.half_edges.len()).sum();
         let n_loops: usize = fragments.iter().map(|part| part.loop_ends.len()).sum();
         let (n_facets, n_half_edges) = (soup.n_facets(), soup.facet_edges.indices().len());
+        let n_pieces: usize = fragments.iter().map(|part| part.pieces.len()).sum();
+        let n_faces = n_facets + fragments.iter().map(|part| part.face_ends.len()).sum::<usize>();
+        let n_edges = soup.edges.len() + n_pieces / 2;
         let out = Self {
             vertices,
+            edges: Vec::with_capacity(n_edges),
+            direction_of: Vec::with_capacity(n_edges),
+            soft: Vec::with_capacity(n_edges),
+            parents: Vec::with_capacity(n_faces),
             loops: Cells::with_capacity(n_loops + n_facets, n_cut + n_half_edges),
-            face_loops: vec![0],
-            parent_offsets: vec![0],
+            face_loops: with_zero(n_faces),
+            parent_offsets: with_zero(n_faces),
             faces_of_facet: vec![0..0; n_facets],
             ..Self::default()
         };
@@ -140,6 +147,13 @@ impl Skeleton {
     }
 }
 
+/// A list that begins with 0, with room for n more.
+fn with_zero(n: usize) -> Vec<u32> {
+    let mut list = Vec::with_capacity(n + 1);
+    list.push(0);
+    list
+}
+
 const NOT_SEEN: u32 = u32::MAX;
 
 struct Builder<'a> {
@@ -168,22 +182,32 @@ impl Builder<'_> {
     fn push_untouched(&mut self, groups: &Groups, leader: u32) {
         let soup = self.soup;
         for facet in (self.done..leader).filter(|&f| !groups.is_member[f as usize]) {
-            let mut first = None;
-            for &code in &soup.facet_edges[facet as usize] {
-                let [tail, head] = soup.directed(code);
-                first.get_or_insert(tail);
-                let half_edge = 2 * self.whole_edge(code / 2) + code % 2;
-                self.one_loop.push(half_edge);
-                if first == Some(head) {
-                    self.close_loop();
-                    first = None;
-                }
+            let codes = &soup.facet_edges[facet as usize];
+            if let &[a, b, c] = codes {
+                let whole = [a, b, c].map(|code| 2 * self.whole_edge(code / 2) + code % 2);
+                self.out.loops.push(&whole);
+            } else {
+                self.push_untouched_polygon(codes);
             }
             let face = self.out.n_faces() as u32;
             self.out.faces_of_facet[facet as usize] = face..face + 1;
             self.close_face(&[FacetParent { facet, same_way: true }]);
         }
         self.done = leader;
+    }
+
+    fn push_untouched_polygon(&mut self, codes: &[u32]) {
+        let mut first = None;
+        for &code in codes {
+            let [tail, head] = self.soup.directed(code);
+            first.get_or_insert(tail);
+            let half_edge = 2 * self.whole_edge(code / 2) + code % 2;
+            self.one_loop.push(half_edge);
+            if first == Some(head) {
+                self.close_loop();
+                first = None;
+            }
+        }
     }
 
     /// The faces of a group.
@@ -275,8 +299,11 @@ fn used_vertices(
             used[soup.directed(h ^ WHOLE)[0] as usize] = true;
         }
     }
-    for (edges, _) in soup.facet_edges.iter().zip(&groups.is_member).filter(|(_, is_member)| !**is_member) {
-        edges.iter().for_each(|&code| used[soup.directed(code)[0] as usize] = true);
+    for (edges, facet) in soup.facet_edges.iter().zip(0..).filter(|(_, f)| !groups.is_member[*f as usize]) {
+        match edges.len() {
+            3 => soup.geometry.base(facet).iter().for_each(|&p| used[p as usize] = true),
+            _ => edges.iter().for_each(|&code| used[soup.directed(code)[0] as usize] = true),
+        }
     }
     let mut n = 0;
     let number = |&used: &bool| {

@@ -12,6 +12,7 @@ use crate::grid::Grid;
 use crate::grid_points::PointTable;
 use crate::half_edges;
 use crate::kernel::{Geometry, Sign};
+use crate::parallel;
 use crate::polygon::{Polygon, Shape};
 use crate::split::offsets;
 use lar_core::{Cells, Surface};
@@ -288,11 +289,22 @@ struct Facets {
 }
 
 impl Facets {
-    fn reserve(&mut self, n: usize, n_half_edges: usize) {
-        self.offsets.reserve(n);
-        self.polygon.reserve(n);
-        self.tails.reserve(n_half_edges);
-        self.heads.reserve(n_half_edges);
+    /// Adds n triangles, each a polygon of its own.
+    fn push_triangles(
+        &mut self,
+        n: usize,
+        base: impl Fn(usize) -> [u32; 3] + Sync + Send,
+        first_polygon: u32,
+    ) {
+        let end = u32::try_from(self.tails.len() + 3 * n).expect("fewer than 2^32 half-edges");
+        self.offsets.extend((self.tails.len() as u32..end).step_by(3).map(|begin| begin + 3));
+        self.polygon.extend(first_polygon..first_polygon + n as u32);
+        parallel::append(&mut self.tails, parallel::map_light(n, &base).into_flattened());
+        let heads = parallel::map_light(n, |i| {
+            let [a, b, c] = base(i);
+            [b, c, a]
+        });
+        parallel::append(&mut self.heads, heads.into_flattened());
     }
 
     fn push(&mut self, half_edges: impl Iterator<Item = [u32; 2]>, polygon: u32) {
@@ -351,24 +363,19 @@ impl Builder<'_> {
     fn push_triangles_of(&mut self, solid: usize, corners: &[u32], point_of: &[u32]) {
         let n = corners.len() / 3;
         let point = |corner: usize| point_of[corners[corner] as usize];
-        let new = self.geometry.push_grid_facets(n, |i| [0, 1, 2].map(|k| point(3 * i + k)));
-        self.facets.reserve(n, 3 * n);
-        self.parents.reserve(n);
-        let mut polygon = self.polygon_flat.len() as u32;
-        for (facet, face) in new.zip(0..) {
-            if self.geometry.normal(facet) == [0.0; 3] {
-                self.degenerate += 1;
-                continue;
-            }
-            let [a, b, c] = self.geometry.base(facet);
-            self.facets.push([[a, b], [b, c], [c, a]].into_iter(), polygon);
-            self.parents.push((polygon, Parent { solid: solid as u32, face, sign: 1 }));
-            polygon += 1;
+        let first = self.geometry.n_facets() as u32;
+        let proper = self.geometry.push_grid_facets(n, |i| [0, 1, 2].map(|k| point(3 * i + k)));
+        let n_proper = proper.as_ref().map_or(n, Vec::len);
+        self.degenerate += (n - n_proper) as u32;
+        let polygon = self.polygon_flat.len() as u32;
+        let geometry = &self.geometry;
+        self.facets.push_triangles(n_proper, |i| geometry.base(first + i as u32), polygon);
+        let parent = |(face, polygon)| (polygon, Parent { solid: solid as u32, face, sign: 1 });
+        match proper {
+            None => self.parents.extend((0..n as u32).zip(polygon..).map(parent)),
+            Some(faces) => self.parents.extend(faces.into_iter().zip(polygon..).map(parent)),
         }
-        if (polygon as usize) < self.polygon_flat.len() + n {
-            self.geometry.drop_grid_facets_without_normal();
-        }
-        self.polygon_flat.resize(polygon as usize, true);
+        self.polygon_flat.resize(polygon as usize + n_proper, true);
     }
 
     fn push_faces(&mut self, solid: usize, surface: &Surface, point_of: &[u32], planes: &[Option<u32>]) {

@@ -1,7 +1,7 @@
-//! Stage 1e: points whose triangles are known to have nothing in common but their shared edges.
+//! Stage 1f: points whose triangles are known to have nothing in common but their shared edges.
 //!
-//! Most pairs of facets whose boxes meet are neighbours in one mesh. All pairs around a point are settled at once when
-//! the triangles there close up to a fan that goes once around some direction w: projected along w they lie side by
+//! Most pairs of facets whose boxes meet and that no chart settles are neighbours in one mesh. All pairs around a point
+//! are settled at once when the triangles there close up to a fan that goes once around some direction w: projected along w they lie side by
 //! side.
 //!
 //! ```text
@@ -15,7 +15,8 @@
 //! The test is one of `f64` with a margin for all rounding: where it fails nothing is claimed. The margin also keeps the
 //! outer corners farther apart than points that are nearly one.
 
-use crate::boxes::NO_MARK;
+use crate::charts::Charts;
+use crate::counting::sorted_by_place;
 use crate::half_edges::MANY;
 use crate::kernel::Geometry;
 use crate::parallel;
@@ -23,6 +24,10 @@ use crate::soup::Soup;
 
 /// Points a chunk of work.
 const POINTS_A_CHUNK: usize = 4096;
+/// Facets a chunk of work.
+const FACETS_A_CHUNK: usize = 1 << 14;
+/// No number of a point.
+const NOT_WANTED: u32 = u32::MAX;
 
 /// What is known of the points.
 #[derive(Debug)]
@@ -31,27 +36,39 @@ pub(crate) struct Stars {
 }
 
 impl Stars {
-    /// Looks at all points of a soup. The corners of two triangles at a clean point are farther apart than `distance` along
-    /// some axis, in grid steps. O(n).
-    pub(crate) fn new(soup: &Soup, distance: f64) -> Self {
+    /// Looks at the points of a soup that are not inside of one chart. The corners of two triangles at a clean point are
+    /// farther apart than `distance` along some axis, in grid steps. O(n).
+    pub(crate) fn new(soup: &Soup, charts: &Charts, distance: f64) -> Self {
         let n = soup.geometry.n_points();
+        let mut is_clean = vec![false; n];
         if !soup.geometry.is_on_grid() {
-            return Self { is_clean: vec![false; n] };
+            return Self { is_clean };
         }
-        let around = Corners::new(soup);
-        let (n_chunks, range) = parallel::chunks(n, POINTS_A_CHUNK);
-        let parts = parallel::map(n_chunks, |chunk| {
-            let star = |p: usize| is_fan(&soup.geometry, p as u32, around.of(p), distance);
-            range(chunk).map(star).collect::<Vec<_>>()
-        });
-        let mut is_clean = parts.concat();
+        for p in charts.boundary_points().chain(charts.without().flat_map(|f| soup.geometry.base(f))) {
+            is_clean[p as usize] = true;
+        }
+        if !is_clean.contains(&true) {
+            return Self { is_clean };
+        }
         for (ends, users) in soup.edges.iter().zip(&soup.facets_of_edge) {
             if users.iter().any(|&facet| facet >= MANY) {
                 ends.iter().for_each(|&p| is_clean[p as usize] = false);
             }
         }
-        for corners in soup.facet_edges.iter().filter(|edges| edges.len() != 3) {
-            corners.iter().for_each(|&code| is_clean[soup.directed(code)[0] as usize] = false);
+        for facet in charts.without() {
+            let edges = &soup.facet_edges[facet as usize];
+            if edges.len() != 3 {
+                edges.iter().for_each(|&code| is_clean[soup.directed(code)[0] as usize] = false);
+            }
+        }
+        let around = Corners::new(soup, &is_clean);
+        let (n_chunks, range) = parallel::chunks(around.points.len(), POINTS_A_CHUNK);
+        let parts = parallel::map(n_chunks, |chunk| {
+            let star = |i: usize| is_fan(&soup.geometry, around.points[i], around.of(i), distance);
+            range(chunk).map(star).collect::<Vec<_>>()
+        });
+        for (&p, holds) in around.points.iter().zip(parts.into_iter().flatten()) {
+            is_clean[p as usize] = holds;
         }
         Self { is_clean }
     }
@@ -60,41 +77,40 @@ impl Stars {
         self.is_clean[p as usize]
     }
 
-    /// The clean corners of a facet. Facets that share one have no other points in common than shared corners and edges.
-    pub(crate) fn marks(&self, geometry: &Geometry, facet: u32) -> [u32; 3] {
-        geometry.base(facet).map(|p| if self.is_clean(p) { p } else { NO_MARK })
+    /// Whether two facets share a clean corner: they have no other points in common than shared corners and edges.
+    pub(crate) fn settle(&self, geometry: &Geometry, f: u32, g: u32) -> bool {
+        let (a, b) = (geometry.base(f), geometry.base(g));
+        a.iter().any(|p| b.contains(p) && self.is_clean(*p))
     }
 }
 
-/// The corners of triangles at each point: 3 · facet + corner.
+/// The corners of triangles at some points: 3 · facet + corner.
 struct Corners {
+    points: Vec<u32>,
     offsets: Vec<u32>,
     corners: Vec<u32>,
 }
 
 impl Corners {
-    fn new(soup: &Soup) -> Self {
-        let triangles = || soup.facet_edges.iter().zip(0u32..).filter(|(edges, _)| edges.len() == 3);
-        let mut offsets = vec![0u32; soup.geometry.n_points() + 2];
-        for (_, facet) in triangles() {
-            soup.geometry.base(facet).iter().for_each(|&p| offsets[p as usize + 2] += 1);
-        }
-        for i in 2..offsets.len() {
-            offsets[i] += offsets[i - 1];
-        }
-        let mut corners = vec![0; offsets.last().map_or(0, |&n| n as usize)];
-        for (_, facet) in triangles() {
-            for (p, corner) in soup.geometry.base(facet).into_iter().zip(3 * facet..) {
-                let at = &mut offsets[p as usize + 1];
-                corners[*at as usize] = corner;
-                *at += 1;
-            }
-        }
-        Self { offsets, corners }
+    fn new(soup: &Soup, is_wanted: &[bool]) -> Self {
+        let points: Vec<u32> = (0..).zip(is_wanted).filter(|(_, wanted)| **wanted).map(|(p, _)| p).collect();
+        let mut number = vec![NOT_WANTED; is_wanted.len()];
+        points.iter().zip(0..).for_each(|(&p, i)| number[p as usize] = i);
+        let (n_chunks, range) = parallel::chunks(soup.n_facets(), FACETS_A_CHUNK);
+        let parts = parallel::map(n_chunks, |chunk| {
+            let corners = range(chunk).flat_map(|f| {
+                let base = soup.geometry.base(f as u32);
+                [0, 1, 2].map(|k| (number[base[k] as usize], (3 * f + k) as u32))
+            });
+            corners.filter(|corner| corner.0 != NOT_WANTED).collect::<Vec<_>>()
+        });
+        let (offsets, sorted) = sorted_by_place(points.len(), &parts.concat(), |corner| corner.0 as usize);
+        Self { points, offsets, corners: sorted.into_iter().map(|corner| corner.1).collect() }
     }
 
-    fn of(&self, p: usize) -> &[u32] {
-        &self.corners[self.offsets[p] as usize..self.offsets[p + 1] as usize]
+    /// Those at the i-th point.
+    fn of(&self, i: usize) -> &[u32] {
+        &self.corners[self.offsets[i] as usize..self.offsets[i + 1] as usize]
     }
 }
 
@@ -152,7 +168,8 @@ mod tests {
         let surfaces = [surface];
         let placed = Placed::snapped(&surfaces, |_, _| 0.0).expect("the points are finite");
         assert!(Tolerance::new(0.5) <= placed.tolerances[0]);
-        Stars::new(&Soup::new(&surfaces, placed), 1.5).is_clean(0)
+        let soup = Soup::new(&surfaces, placed);
+        Stars::new(&soup, &Charts::none(soup.n_facets()), 1.5).is_clean(0)
     }
 
     /// A fan of n triangles that goes around `turns` times.

@@ -33,20 +33,24 @@ pub(crate) struct Jump {
     pub odd: bool,
 }
 
-/// The jumps of all faces, each face's sorted by solid.
+/// Faces that follow each other, lie between the same cells and have the same jumps: one wall. Most faces of a mesh are
+/// of very few.
 #[derive(Debug)]
-pub(crate) struct Jumps {
+pub(crate) struct Walls {
+    /// The cells in front and behind.
+    cells: Vec<[u32; 2]>,
     offsets: Vec<u32>,
+    /// Sorted by solid.
     jumps: Vec<Jump>,
 }
 
-impl Jumps {
+impl Walls {
     pub(crate) fn new() -> Self {
-        Self { offsets: vec![0], jumps: Vec::new() }
+        Self { cells: Vec::new(), offsets: vec![0], jumps: Vec::new() }
     }
 
-    /// Adds the next face with its contributions to the jumps: solid and signed coefficient.
-    pub(crate) fn push_face(&mut self, contributions: impl Iterator<Item = (u32, i32)>) {
+    /// Adds the next face between two cells with its contributions to the jumps: solid and signed coefficient.
+    pub(crate) fn push_face(&mut self, cells: [u32; 2], contributions: impl Iterator<Item = (u32, i32)>) {
         let begin = self.jumps.len();
         let jump =
             |(solid, coefficient): (u32, i32)| Jump { solid, signed: coefficient, odd: coefficient % 2 != 0 };
@@ -60,15 +64,25 @@ impl Jumps {
                 odd: same.iter().fold(false, |odd, j| odd ^ j.odd),
             }));
         }
-        self.offsets.push(self.jumps.len() as u32);
+        let last = self.cells.len().checked_sub(1);
+        if last.is_some_and(|last| self.cells[last] == cells && self.of(last as u32) == &self.jumps[begin..])
+        {
+            self.jumps.truncate(begin);
+        } else {
+            self.cells.push(cells);
+            self.offsets.push(self.jumps.len() as u32);
+        }
     }
 
-    fn of(&self, face: u32) -> &[Jump] {
-        &self.jumps[self.offsets[face as usize] as usize..self.offsets[face as usize + 1] as usize]
+    fn of(&self, wall: u32) -> &[Jump] {
+        &self.jumps[self.offsets[wall as usize] as usize..self.offsets[wall as usize + 1] as usize]
     }
 
-    fn iter(&self) -> impl Iterator<Item = &[Jump]> + '_ {
-        self.offsets.windows(2).map(|w| &self.jumps[w[0] as usize..w[1] as usize])
+    fn iter(&self) -> impl Iterator<Item = ([u32; 2], &[Jump])> + '_ {
+        self.cells
+            .iter()
+            .copied()
+            .zip(self.offsets.windows(2).map(|w| &self.jumps[w[0] as usize..w[1] as usize]))
     }
 }
 
@@ -78,25 +92,20 @@ impl Windings {
         Self { offsets: vec![0; n_cells + 1], ..Self::default() }
     }
 
-    /// `cells_of_face` holds the cells in front and behind of each face. O(faces · parents + entries).
-    pub(crate) fn new(n_cells: usize, n_solids: usize, cells_of_face: &[[u32; 2]], jumps: &Jumps) -> Self {
-        let tree = spanning_tree(n_cells, cells_of_face);
+    /// O(walls · parents + entries).
+    pub(crate) fn new(n_cells: usize, n_solids: usize, walls: &Walls) -> Self {
+        let tree = spanning_tree(n_cells, &walls.cells);
         let mut closure = vec![Closure::Closed; n_solids];
-        let mut windings = propagate(n_cells, &tree, jumps, |j| j.signed);
-        let mut before = None;
-        for face in cells_of_face.iter().zip(jumps.iter()) {
-            // Faces of one mesh between the same two cells follow each other, and say the same.
-            if before.replace(face) != Some(face) {
-                let (cells, jumps) = face;
-                check_face(&windings, *cells, jumps, |j| j.signed, |a| a, &mut closure, Closure::Unoriented);
-            }
+        let mut windings = propagate(n_cells, &tree, walls, |j| j.signed);
+        for (cells, jumps) in walls.iter() {
+            check_wall(&windings, cells, jumps, |j| j.signed, |a| a, &mut closure, Closure::Unoriented);
         }
         if closure.contains(&Closure::Unoriented) {
             let odd = |j: &Jump| i32::from(j.odd && closure[j.solid as usize] == Closure::Unoriented);
-            let parity = propagate(n_cells, &tree, jumps, odd);
+            let parity = propagate(n_cells, &tree, walls, odd);
             let mut open = closure.clone();
-            for (cells, jumps) in cells_of_face.iter().zip(jumps.iter()) {
-                check_face(&parity, *cells, jumps, odd, |a| a.rem_euclid(2), &mut open, Closure::Open);
+            for (cells, jumps) in walls.iter() {
+                check_wall(&parity, cells, jumps, odd, |a| a.rem_euclid(2), &mut open, Closure::Open);
             }
             for (cell, row) in windings.iter_mut().enumerate() {
                 row.retain(|e| closure[e.0 as usize] == Closure::Closed);
@@ -132,20 +141,20 @@ impl Windings {
 }
 
 /// For each cell but the exterior, in the order of a breadth-first walk: the cell, the one it is entered from, the
-/// face crossed and the sign of the crossing (+1 from front to back).
-fn spanning_tree(n_cells: usize, cells_of_face: &[[u32; 2]]) -> Vec<(u32, u32, u32, i32)> {
+/// wall crossed and the sign of the crossing (+1 from front to back).
+fn spanning_tree(n_cells: usize, cells_of_wall: &[[u32; 2]]) -> Vec<(u32, u32, u32, i32)> {
     let mut offsets = vec![0u32; n_cells + 1];
-    for &cell in cells_of_face.as_flattened() {
+    for &cell in cells_of_wall.as_flattened() {
         offsets[cell as usize + 1] += 1;
     }
     for c in 0..n_cells {
         offsets[c + 1] += offsets[c];
     }
     let mut fill = offsets.clone();
-    let mut faces = vec![0u32; 2 * cells_of_face.len()];
-    for (&cells, face) in cells_of_face.iter().zip(0..) {
+    let mut walls = vec![0u32; 2 * cells_of_wall.len()];
+    for (&cells, wall) in cells_of_wall.iter().zip(0..) {
         for cell in cells {
-            faces[fill[cell as usize] as usize] = face;
+            walls[fill[cell as usize] as usize] = wall;
             fill[cell as usize] += 1;
         }
     }
@@ -157,12 +166,12 @@ fn spanning_tree(n_cells: usize, cells_of_face: &[[u32; 2]]) -> Vec<(u32, u32, u
     while at < order.len() {
         let cell = order[at];
         at += 1;
-        for &face in &faces[offsets[cell as usize] as usize..offsets[cell as usize + 1] as usize] {
-            let [front, back] = cells_of_face[face as usize];
+        for &wall in &walls[offsets[cell as usize] as usize..offsets[cell as usize + 1] as usize] {
+            let [front, back] = cells_of_wall[wall as usize];
             let (next, sign) = if front == cell { (back, 1) } else { (front, -1) };
             if !std::mem::replace(&mut seen[next as usize], true) {
                 order.push(next);
-                tree.push((next, cell, face, sign));
+                tree.push((next, cell, wall, sign));
             }
         }
     }
@@ -172,13 +181,13 @@ fn spanning_tree(n_cells: usize, cells_of_face: &[[u32; 2]]) -> Vec<(u32, u32, u
 fn propagate(
     n_cells: usize,
     tree: &[(u32, u32, u32, i32)],
-    jumps: &Jumps,
+    walls: &Walls,
     value: impl Fn(&Jump) -> i32,
 ) -> Vec<Vec<(u32, i32)>> {
     let mut rows: Vec<Vec<(u32, i32)>> = vec![Vec::new(); n_cells];
-    for &(cell, from, face, sign) in tree {
+    for &(cell, from, wall, sign) in tree {
         let mut row = rows[from as usize].clone();
-        for jump in jumps.of(face) {
+        for jump in walls.of(wall) {
             let change = sign * value(jump);
             match row.binary_search_by_key(&jump.solid, |e| e.0) {
                 _ if change == 0 => {}
@@ -194,8 +203,8 @@ fn propagate(
     rows
 }
 
-/// Marks the solids whose numbers on the two sides of a face differ by something else than the face's jump.
-fn check_face(
+/// Marks the solids whose numbers on the two sides of a wall differ by something else than its jump.
+fn check_wall(
     rows: &[Vec<(u32, i32)>],
     [front, back]: [u32; 2],
     jumps: &[Jump],

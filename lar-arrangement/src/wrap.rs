@@ -28,22 +28,8 @@ use std::cmp::Ordering;
 /// the face's loop runs against the edge. A face may stand there twice (both sides of a slit).
 pub(crate) fn rings(skeleton: &Skeleton, geometry: &Geometry) -> Cells {
     let n = skeleton.edges.len();
-    let mut offsets = vec![0u32; n + 1];
-    for &h in skeleton.loops.indices() {
-        offsets[(h / 2) as usize + 1] += 1;
-    }
-    for e in 0..n {
-        offsets[e + 1] += offsets[e];
-    }
-    let mut fill = offsets.clone();
-    let mut entries = vec![0; skeleton.loops.indices().len()];
-    for face in 0..skeleton.n_faces() as u32 {
-        for h in skeleton.half_edges(face) {
-            let at = &mut fill[(h / 2) as usize];
-            entries[*at as usize] = 2 * face + h % 2;
-            *at += 1;
-        }
-    }
+    let parts = parallel::map(parallel::n_threads(), |part| entries_of(parallel::part_of(n, part), skeleton));
+    let (offsets, mut entries) = joined(parts);
     let of = |edge: u32| offsets[edge as usize] as usize..offsets[edge as usize + 1] as usize;
     let crowded: Vec<u32> = (0..n as u32).filter(|&edge| of(edge).len() > 2).collect();
     let (n_chunks, range) = parallel::chunks(crowded.len(), 1024);
@@ -65,6 +51,42 @@ pub(crate) fn rings(skeleton: &Skeleton, geometry: &Geometry) -> Cells {
         }
     }
     Cells::from_parts(offsets, entries)
+}
+
+/// The faces around some edges in their order, and where those of each edge begin and end.
+fn entries_of(edges: std::ops::Range<usize>, skeleton: &Skeleton) -> (Vec<u32>, Vec<u32>) {
+    let place = |h: u32| ((h / 2) as usize).checked_sub(edges.start).filter(|&place| place < edges.len());
+    // offsets[i + 1] is where the next entry of edge i goes; in the end, where those of i + 1 begin.
+    let mut offsets = vec![0u32; edges.len() + 2];
+    skeleton.loops.indices().iter().filter_map(|&h| place(h)).for_each(|i| offsets[i + 2] += 1);
+    for i in 2..offsets.len() {
+        offsets[i] += offsets[i - 1];
+    }
+    let mut entries = vec![0; offsets[edges.len() + 1] as usize];
+    let loop_offsets = skeleton.loops.offsets();
+    for (loops, face) in skeleton.face_loops.windows(2).zip(0u32..) {
+        let [begin, end] = [loops[0], loops[1]].map(|l| loop_offsets[l as usize] as usize);
+        for &h in &skeleton.loops.indices()[begin..end] {
+            if let Some(i) = place(h) {
+                let at = &mut offsets[i + 1];
+                entries[*at as usize] = 2 * face + h % 2;
+                *at += 1;
+            }
+        }
+    }
+    offsets.pop();
+    (offsets, entries)
+}
+
+fn joined(parts: Vec<(Vec<u32>, Vec<u32>)>) -> (Vec<u32>, Vec<u32>) {
+    let mut parts = parts.into_iter();
+    let (mut offsets, mut entries) = parts.next().unwrap_or_else(|| (vec![0], Vec::new()));
+    for (more_offsets, more) in parts {
+        let base = entries.len() as u32;
+        offsets.extend(more_offsets[1..].iter().map(|offset| base + offset));
+        entries.extend(more);
+    }
+    (offsets, entries)
 }
 
 fn sort_ring(ring: &mut [u32], edge: u32, skeleton: &Skeleton, geometry: &Geometry) {
@@ -108,9 +130,10 @@ fn opposite(a: u32, b: u32, skeleton: &Skeleton, geometry: &Geometry) -> bool {
 pub(crate) fn shells(rings: &Cells, n_faces: usize) -> (Vec<u32>, u32) {
     let mut sides = UnionFind::new(2 * n_faces);
     for ring in rings.iter() {
-        for (i, &entry) in ring.iter().enumerate() {
-            let next = ring[(i + 1) % ring.len()];
-            sides.union(entry, next ^ 1);
+        let mut before = ring.last();
+        for next in ring {
+            before.into_iter().for_each(|&entry| _ = sides.union(entry, next ^ 1));
+            before = Some(next);
         }
     }
     sides.labels()

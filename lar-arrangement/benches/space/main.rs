@@ -18,6 +18,10 @@ use std::num::NonZeroUsize;
 use std::time::Duration;
 use workloads::Workload;
 
+/// As in the command `lar`.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 /// Those that take milliseconds.
 const SMALL: [&str; 9] = [
     "three-cubes",

@@ -201,7 +201,7 @@ impl Search<'_> {
         }
     }
 
-    /// The same for facets that share a clean point with a facet of a cluster. O(facets · clusters at a point).
+    /// The same for facets that share a corner with a facet of a cluster. O(facets · clusters at a point).
     fn add_touching_neighbours(
         &self,
         clusters: &[Cluster],
@@ -210,8 +210,7 @@ impl Search<'_> {
     ) {
         let mut at_point: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
         for (cluster, id) in clusters.iter().zip(0..) {
-            let clean = cluster.corners.iter().filter(|&&p| self.input.stars.is_clean(p));
-            clean.for_each(|&p| at_point.entry(p).or_default().push(id));
+            cluster.corners.iter().for_each(|&p| at_point.entry(p).or_default().push(id));
         }
         if at_point.is_empty() {
             return;

@@ -15,6 +15,8 @@ mod placement;
 mod scan;
 mod vector;
 
+use crate::boxes::NO_GROUP;
+use crate::charts::Charts;
 use crate::grid_points::PointTable;
 use crate::half_edges::MANY;
 use crate::kernel::Geometry;
@@ -85,10 +87,11 @@ impl Report {
     }
 }
 
-/// Facets of a soup, and the pairs of them whose boxes meet but for those that share a clean point.
+/// Facets of a soup, and the pairs of them whose boxes meet but for those that a chart or a clean point settles.
 pub(crate) struct Input<'a> {
     pub soup: &'a Soup,
     pub pairs: &'a [[u32; 2]],
+    pub charts: &'a Charts,
     pub stars: &'a Stars,
 }
 
@@ -97,18 +100,21 @@ impl Input<'_> {
         Tolerance::of(&self.soup.tolerances, self.corners(facet))
     }
 
-    /// The two facets at an edge with a clean end, which are not among the pairs.
+    /// The two facets at an edge that are not among the pairs: those of one chart, or at a clean end of the edge.
     fn neighbours_at(&self, edge: u32) -> Option<[u32; 2]> {
+        let [f, g] = self.soup.facets_of_edge[edge as usize];
         let is_clean = |&p: &u32| self.stars.is_clean(p);
-        let facets = self.soup.facets_of_edge[edge as usize];
-        let are_two = facets.iter().all(|&facet| facet < MANY);
-        (are_two && self.soup.edges[edge as usize].iter().any(is_clean)).then_some(facets)
+        let are_two = f < MANY && g < MANY;
+        let is_settled = || self.charts.are_one(f, g) || self.soup.edges[edge as usize].iter().any(is_clean);
+        (are_two && is_settled()).then_some([f, g])
     }
 
-    /// Whether the corners of a facet are known to be apart: a triangle with two clean corners has them on all its sides.
-    fn is_clean_triangle(&self, facet: u32) -> bool {
-        let corners = self.soup.geometry.base(facet);
-        corners.iter().filter(|&&p| self.stars.is_clean(p)).count() >= 2
+    /// Whether the corners of a facet are known to be apart: it is in a chart, or a triangle with two clean corners, which
+    /// are on all its sides.
+    fn has_corners_apart(&self, facet: u32) -> bool {
+        let is_clean = |p: &&u32| self.stars.is_clean(**p);
+        self.charts.of(facet) != NO_GROUP
+            || self.soup.geometry.base(facet).iter().filter(is_clean).count() >= 2
     }
 
     fn corners(&self, facet: u32) -> impl Iterator<Item = u32> + Clone + '_ {

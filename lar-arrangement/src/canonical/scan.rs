@@ -1,7 +1,7 @@
 //! Which points are nearly one, and which pairs of facets lie nearly in one plane.
 
-use super::Input;
 use super::vector::{distance, dot, minus};
+use super::{Input, Tolerance};
 use crate::parallel;
 use crate::progress::{Cancelled, Course};
 
@@ -41,25 +41,102 @@ struct Outline {
 
 impl Scan {
     pub(crate) fn new(input: &Input, course: &Course) -> Result<Self, Cancelled> {
-        let outlines = parallel::map(input.soup.n_facets(), |f| Outline::of(&Shape::of(input, f as u32)));
+        let outlines = Outlines::new(input);
         let is_coplanar = |&[f, g]: &[u32; 2]| {
-            !outlines[f as usize].is_across(&outlines[g as usize]) && are_nearly_coplanar(input, [f, g])
+            !outlines.of(f).is_across(outlines.of(g)) && are_nearly_coplanar(input, [f, g])
         };
         let (n_chunks, range) = parallel::chunks(input.pairs.len(), PAIRS_A_CHUNK);
         let mut coplanar = course.map(n_chunks, |chunk| {
             input.pairs[range(chunk)].iter().copied().filter(is_coplanar).collect::<Vec<_>>()
         })?;
-        let (n_chunks, range) = parallel::chunks(input.soup.edges.len(), PAIRS_A_CHUNK);
+        let largest =
+            input.soup.tolerances.iter().copied().fold(Tolerance::default(), Tolerance::max).planes();
+        let (n_chunks, range) = parallel::chunks(input.soup.n_facets(), PAIRS_A_CHUNK);
         coplanar.extend(course.map(n_chunks, |chunk| {
-            let edges = range(chunk).start as u32..range(chunk).end as u32;
-            edges.filter_map(|edge| input.neighbours_at(edge)).filter(is_coplanar).collect::<Vec<_>>()
+            let mut found = Vec::new();
+            range(chunk).for_each(|f| coplanar_neighbours(input, f as u32, largest, &mut found));
+            found
         })?);
         Ok(Self { near: near_points(input, course)?, coplanar: coplanar.concat() })
     }
 }
 
-/// Pairs of points of different facets or of one within the tolerance, ascending. Corners of facets that share a clean
-/// point are farther apart.
+/// Outlines of the facets that are in some pair.
+struct Outlines {
+    number: Vec<u32>,
+    outlines: Vec<Outline>,
+}
+
+impl Outlines {
+    fn new(input: &Input) -> Self {
+        let mut number = vec![u32::MAX; input.soup.n_facets()];
+        let mut paired = Vec::new();
+        for &facet in input.pairs.as_flattened() {
+            if number[facet as usize] == u32::MAX {
+                number[facet as usize] = paired.len() as u32;
+                paired.push(facet);
+            }
+        }
+        let outlines = parallel::map_light(paired.len(), |i| Outline::of(&Shape::of(input, paired[i])));
+        Self { number, outlines }
+    }
+
+    fn of(&self, facet: u32) -> &Outline {
+        &self.outlines[self.number[facet as usize] as usize]
+    }
+}
+
+/// The facets at the edges that run along those of a facet, where they are not among the pairs and nearly in one plane.
+fn coplanar_neighbours(input: &Input, f: u32, largest: f64, found: &mut Vec<[u32; 2]>) {
+    let edges = &input.soup.facet_edges[f as usize];
+    let triangle = (edges.len() == 3).then(|| Triangle::of(input, f));
+    for edge in edges.iter().filter(|code| code.is_multiple_of(2)).map(|code| code / 2) {
+        let Some(pair) = input.neighbours_at(edge) else { continue };
+        let is_bent = triangle.as_ref().is_some_and(|t| t.is_bent(input, edge, pair[1], largest));
+        if !is_bent && are_nearly_coplanar(input, pair) {
+            found.push(pair);
+        }
+    }
+}
+
+/// A triangle, and a bound of its sides.
+struct Triangle {
+    normal: [f64; 3],
+    origin: [f64; 3],
+    size: f64,
+}
+
+impl Triangle {
+    fn of(input: &Input, facet: u32) -> Self {
+        let geometry = &input.soup.geometry;
+        let [a, b, c] = geometry.base(facet).map(|p| geometry.position(p));
+        Self { normal: geometry.normal(facet), origin: a, size: size(minus(b, a)) + size(minus(c, a)) }
+    }
+
+    /// Whether the triangle and another one at an edge are bent there by more than the tolerance. Their planes hold the
+    /// edge; the corner of one lies off the plane of the other by det / |n|, and `nearly_holds` allows for tolerance ·
+    /// (1 + 2 · distance / width) with width = |n| / longest side. No length is above s, and |n| not above s².
+    fn is_bent(&self, input: &Input, edge: u32, other: u32, tolerance: f64) -> bool {
+        let (soup, geometry) = (input.soup, &input.soup.geometry);
+        if soup.facet_edges[other as usize].len() != 3 {
+            return false;
+        }
+        let [p, q] = soup.edges[edge as usize];
+        let [a, b, c] = geometry.base(other);
+        let off = minus(geometry.position(a ^ b ^ c ^ p ^ q), self.origin);
+        let s = self.size + size(off);
+        // Rounding changes the determinant by less than 2^-48 · s³, and s is below 2^44.
+        dot(self.normal, off).abs() > (4.0 * tolerance + 1.0) * s * s
+    }
+}
+
+/// Not shorter than the vector.
+fn size(v: [f64; 3]) -> f64 {
+    v.iter().map(|x| x.abs()).sum()
+}
+
+/// Pairs of points of different facets or of one within the tolerance, ascending. Corners of facets of one
+/// chart, or that share a clean point, are farther apart.
 fn near_points(input: &Input, course: &Course) -> Result<Vec<[u32; 2]>, Cancelled> {
     let geometry = &input.soup.geometry;
     let limit = |p: u32| input.soup.tolerances[p as usize].points();
@@ -85,7 +162,7 @@ fn near_points(input: &Input, course: &Course) -> Result<Vec<[u32; 2]>, Cancelle
     near.extend(course.map(n_chunks, |chunk| {
         let mut near = Vec::new();
         let facets = range(chunk).map(|f| f as u32);
-        facets.filter(|&f| !input.is_clean_triangle(f)).for_each(|f| between(f, f, &mut near));
+        facets.filter(|&f| !input.has_corners_apart(f)).for_each(|f| between(f, f, &mut near));
         near
     })?);
     let mut near = near.concat();

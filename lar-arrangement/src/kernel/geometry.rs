@@ -10,7 +10,6 @@ use super::point::{HPointOf, Plane, PlaneOf};
 use super::{Int, Sign};
 use crate::parallel;
 use lar_core::Cells;
-use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// How often the `f64` filters could not decide and exact integers did.
@@ -153,6 +152,10 @@ impl Geometry {
         self.points.len()
     }
 
+    pub(crate) fn n_facets(&self) -> usize {
+        self.facets.len()
+    }
+
     pub(crate) fn reach(&self) -> Reach {
         self.reach
     }
@@ -225,28 +228,25 @@ impl Geometry {
         self.reach == Reach::Grid && self.canonical.planes.is_empty()
     }
 
-    /// Adds n triangles of grid points, in a scene on the grid, and returns their numbers. Those of collinear points have
-    /// no normal: they must be dropped.
+    /// Adds those of n triangles of grid points, in a scene on the grid, whose points are not collinear, and returns which
+    /// these are; `None` for all.
     pub(crate) fn push_grid_facets(
         &mut self,
         n: usize,
         base: impl Fn(usize) -> [u32; 3] + Sync + Send,
-    ) -> Range<u32> {
-        let before = self.facets.len() as u32;
-        let mut new = parallel::map(n, |i| {
+    ) -> Option<Vec<u32>> {
+        let mut new = parallel::map_light(n, |i| {
             let base = base(i);
             Facet { base, normal: self.grid_normal(base) }
         });
-        if before == 0 {
-            self.facets = new;
-        } else {
-            self.facets.append(&mut new);
-        }
-        before..self.facets.len() as u32
-    }
-
-    pub(crate) fn drop_grid_facets_without_normal(&mut self) {
-        self.facets.retain(|facet| facet.normal != [0.0; 3]);
+        let has_normal = |facet: &Facet| facet.normal != [0.0; 3];
+        let proper = (!new.iter().all(has_normal)).then(|| {
+            let proper = (0..).zip(&new).filter(|(_, facet)| has_normal(facet)).map(|(i, _)| i).collect();
+            new.retain(has_normal);
+            proper
+        });
+        parallel::append(&mut self.facets, new);
+        proper
     }
 
     /// Keeps the facets for which `keep` holds, by their numbers, and numbers them anew.
@@ -395,12 +395,11 @@ impl Geometry {
     }
 }
 
-/// The number, off by less than 2^-52 of it: far cheaper than correctly rounded.
+/// The number, below 2^103, correctly rounded: both parts are exact, and only their sum is rounded.
 fn to_f64(x: i128) -> f64 {
-    match i64::try_from(x) {
-        Ok(x) => x as f64,
-        Err(_) => ((x >> 64) as i64 as f64) * 18_446_744_073_709_551_616.0 + (x as u64 as f64),
-    }
+    const LOW: u32 = 40;
+    let (high, low) = ((x >> LOW) as i64, x as i64 & ((1 << LOW) - 1));
+    high as f64 * (1i64 << LOW) as f64 + low as f64
 }
 
 /// The normal in `f64`, its largest component brought below 2^128, so that products of several stay finite.

@@ -7,7 +7,7 @@ use crate::merge::{self, Faces, Removal};
 use crate::planar::input::{Drawing, NO_REGION};
 use crate::planar::result::PlanarArrangement;
 use crate::union_find::UnionFind;
-use crate::winding::{Closure, Jumps, Windings};
+use crate::winding::{Closure, Walls, Windings};
 use lar_core::{FaceId, Points};
 
 /// Polygons with holes in the plane.
@@ -43,7 +43,7 @@ impl PlanarArrangement {
     pub(super) fn wind(&mut self, drawing: &Drawing) {
         self.windings = match drawing.regions.len() {
             0 => Windings::of_none(self.n_faces() + 1),
-            n => Windings::new(self.n_faces() + 1, n, &self.faces_of_edges(), &self.jumps(drawing)),
+            n => Windings::new(self.n_faces() + 1, n, &self.walls(drawing)),
         };
         self.regions.clone_from(&drawing.regions);
     }
@@ -59,17 +59,19 @@ impl PlanarArrangement {
         faces
     }
 
-    /// For each edge the regions that it bounds.
-    fn jumps(&self, drawing: &Drawing) -> Jumps {
+    /// The edges with the regions that they bound.
+    fn walls(&self, drawing: &Drawing) -> Walls {
         let mut bounds: Vec<Vec<(u32, i32)>> = vec![Vec::new(); self.n_edges()];
         for (segment, &region) in drawing.region_of.iter().enumerate().filter(|(_, r)| **r != NO_REGION) {
             for (edge, sign) in self.edges_of(segment) {
                 bounds[edge.index()].push((region, i32::from(sign)));
             }
         }
-        let mut jumps = Jumps::new();
-        bounds.into_iter().for_each(|list| jumps.push_face(list.into_iter()));
-        jumps
+        let mut walls = Walls::new();
+        for (faces, list) in self.faces_of_edges().into_iter().zip(bounds) {
+            walls.push_face(faces, list.into_iter());
+        }
+        walls
     }
 
     /// The winding number of a region in a face (its parity where its outline is not oriented consistently).
@@ -179,7 +181,7 @@ impl PlanarArrangement {
             .collect();
         let (new_face, n_new_faces) = sets.labels();
         let edges = self.edges();
-        let mut straight = merge::with_two_edges(&edges, &removed, 0..self.n_vertices() as u32);
+        let mut straight = merge::with_two_edges(self.n_vertices(), &edges, &removed, |_| true);
         straight.retain(|_, [e, f]| self.carrier_of[*e as usize] == self.carrier_of[*f as usize]);
         let view = Faces { edges: &edges, loops: &loops, face_loops: &face_loops };
         let removal = Removal {

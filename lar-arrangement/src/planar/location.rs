@@ -30,10 +30,11 @@ pub enum Location {
 /// What point location needs beside the arrangement.
 #[derive(Debug)]
 pub(super) struct LocationIndex {
-    /// Over the rounded boxes of the edges.
+    /// Over the rounded boxes of the edges, in local coordinates.
     tree: BoxTree<2>,
     /// Box of everything.
     bounds: Aabb<2>,
+    local: Local,
     /// Ends of each edge in the direction of its carrier.
     ends: Vec<[u32; 2]>,
     /// The faces on the right and on the left of each edge, from its smaller vertex to the larger.
@@ -96,6 +97,31 @@ impl PlanarArrangement {
     }
 }
 
+/// Coordinates in which everything is near 0 and about as large as 1: the tree's boxes have 32 bits. The order of
+/// coordinates along an axis is kept.
+#[derive(Clone, Copy, Debug)]
+struct Local {
+    /// Half of the least coordinates.
+    origin: [f64; 2],
+    scale: f64,
+}
+
+impl Local {
+    fn of(bounds: &Aabb<2>) -> Self {
+        let origin = bounds.lo.map(|x| x / 2.0);
+        let extent = (0..2).map(|k| bounds.hi[k] / 2.0 - origin[k]).fold(f64::MIN_POSITIVE, f64::max);
+        Self { origin, scale: 2f64.powi(-(extent.log2().floor() as i32)) }
+    }
+
+    fn along(&self, axis: usize, x: f64) -> f64 {
+        (x / 2.0 - self.origin[axis]) * self.scale
+    }
+
+    fn point(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.along(0, x), self.along(1, y)]
+    }
+}
+
 impl LocationIndex {
     fn new(a: &PlanarArrangement) -> Self {
         let along_carrier = |(edge, e): (usize, [u32; 2])| {
@@ -106,20 +132,16 @@ impl LocationIndex {
         };
         let ends: Vec<[u32; 2]> = a.edges().into_iter().enumerate().map(along_carrier).collect();
         let flat = |p: &[f64]| [p[0], p[1]];
-        let boxes: Vec<Aabb<2>> =
-            ends.iter().map(|&ends| Aabb::around(a.end_positions(ends).map(flat))).collect();
+        let points = a.complex().points();
+        let bounds = Aabb::around(points.iter().map(flat));
+        let local = Local::of(&bounds);
+        let box_of = |&ends| Aabb::around(a.end_positions(ends).map(|p| local.point(flat(p))));
+        let boxes: Vec<Aabb<2>> = ends.iter().map(box_of).collect();
         let mut has_edge = vec![false; a.n_vertices()];
         ends.as_flattened().iter().for_each(|&v| has_edge[v as usize] = true);
         let mut isolated: Vec<u32> = (0..a.n_vertices() as u32).filter(|&v| !has_edge[v as usize]).collect();
-        let points = a.complex().points();
         isolated.sort_by(|&v, &w| cmp_points(points.point(v as usize), points.point(w as usize)));
-        Self {
-            tree: BoxTree::new(&boxes),
-            bounds: Aabb::around(points.iter().map(flat)),
-            ends,
-            faces: a.faces_of_edges(),
-            isolated,
-        }
+        Self { tree: BoxTree::new(&boxes), bounds, local, ends, faces: a.faces_of_edges(), isolated }
     }
 }
 
@@ -174,7 +196,8 @@ impl Locator<'_> {
         if let Some(vertex) = self.isolated_at(query) {
             return Location::Vertex(VertexId(vertex));
         }
-        let [x, y] = query.point;
+        let local = &self.index.local;
+        let [x, y] = local.point(query.point);
         let beam = Aabb { lo: [f64::NEG_INFINITY, y], hi: [x, y] };
         let (mut hit, mut nearest) = (None, None);
         self.index.tree.query_leftwards(&beam, f64::NEG_INFINITY, |edge, bound| {
@@ -185,7 +208,7 @@ impl Locator<'_> {
                 }
                 Place::Left if nearest.is_none_or(|best| self.is_right_of(edge, best)) => {
                     nearest = Some(edge);
-                    bound.max(self.reach(edge, y))
+                    bound.max(local.along(0, self.reach(edge, query.point[1])))
                 }
                 Place::Left | Place::Elsewhere => bound,
             }
