@@ -49,18 +49,20 @@ fn join_edges_at(from: u32, to: u32, tails: &[u32], heads: &[u32], first: &[Atom
 /// Edges in the order of their first half-edges, and for each half-edge 2 · edge, + 1 when it runs from the larger end
 /// to the smaller.
 pub(crate) fn edges(n_points: usize, tails: &[u32], heads: &[u32]) -> (Vec<[u32; 2]>, Vec<u32>) {
-    let mut codes = first_of_edge(n_points, tails, heads);
-    let mut edges = Vec::with_capacity(tails.len() / 2 + 16);
-    for h in 0..codes.len() {
-        let (p, q, first) = (tails[h], heads[h], codes[h] as usize);
-        let edge = if first == h {
-            edges.push([p.min(q), p.max(q)]);
-            edges.len() as u32 - 1
-        } else {
-            codes[first] / 2
-        };
-        codes[h] = 2 * edge + u32::from(p > q);
-    }
+    let first = first_of_edge(n_points, tails, heads);
+    let first_halves = parallel::select(first.len(), |h| first[h as usize] == h);
+    let edges = parallel::map_light(first_halves.len(), |edge| {
+        let h = first_halves[edge] as usize;
+        [tails[h].min(heads[h]), tails[h].max(heads[h])]
+    });
+    let mut number = vec![0; first.len()];
+    first_halves.iter().zip(0..).for_each(|(&h, edge)| number[h as usize] = edge);
+    let mut codes = first;
+    parallel::each_chunk(&mut codes, |begin, chunk| {
+        for (code, h) in chunk.iter_mut().zip(begin..) {
+            *code = 2 * number[*code as usize] + u32::from(tails[h] > heads[h]);
+        }
+    });
     (edges, codes)
 }
 

@@ -425,8 +425,9 @@ fn assemble(
     }
     let windings = Windings::new(shells.n_cells as usize, surfaces.len(), &walls);
     course.begin("complex", &mut stats)?;
-    let plane_of_face = dissolved.old_face.iter().map(|&f| soup.plane_class(skeleton.facet(f))).collect();
-    let facet_of_face = dissolved.old_face.iter().map(|&f| skeleton.facet(f)).collect();
+    let n_faces = dissolved.old_face.len();
+    let facet_of_face = parallel::map_light(n_faces, |face| skeleton.facet(dissolved.old_face[face]));
+    let plane_of_face = parallel::map_light(n_faces, |face| soup.plane_class(facet_of_face[face]));
     let vertices = if dissolved.merged.vertices.len() == skeleton.vertices.len() {
         skeleton.vertices
     } else {
@@ -536,12 +537,12 @@ impl Parents {
 
 fn positions(soup: &Soup, vertices: &[crate::kernel::Vertex]) -> Points {
     let offset = soup.grid.offset();
-    let mut coords = Vec::with_capacity(3 * vertices.len());
-    for v in vertices {
+    let coords = parallel::map_light(vertices.len(), |i| {
+        let v = &vertices[i];
         let steps = if offset == [0; 3] { v.at } else { soup.geometry.rounded_after(v, offset) };
-        coords.extend(steps.map(|x| soup.grid.length(x)));
-    }
-    Points::from_columns(3, coords)
+        steps.map(|x| soup.grid.length(x))
+    });
+    Points::from_columns(3, coords.into_flattened())
 }
 
 pub(crate) fn boundary_1(n_vertices: usize, edges: Vec<[u32; 2]>) -> lar_core::Operator {
