@@ -59,6 +59,27 @@ fn spheres_on_a_lattice() {
     }
 }
 
+/// Smooth surfaces that fold over and cross themselves: large parts of them are seen side by side along an axis, others
+/// cover themselves.
+#[test]
+fn spheres_bent_by_waves() {
+    let mut n_cells = 0;
+    for seed in 0..12 {
+        let random = &mut Random(seed);
+        let mut number = |size: f64| size * (random.below(1 << 20) as f64 / f64::from(1 << 19) - 1.0);
+        let waves: [[f64; 4]; 3] =
+            std::array::from_fn(|_| [number(1.5), number(3.0), number(3.0), number(3.0)]);
+        let bent = |p: [f64; 3]| {
+            std::array::from_fn(|k| {
+                let [height, a, b, c] = waves[k];
+                p[k] + height * (a * p[0] + b * p[1] + c * p[2]).sin()
+            })
+        };
+        n_cells += check(&crumpled(3, bent), seed).n_cells() - 2;
+    }
+    assert!(n_cells > 50, "only {n_cells} cells");
+}
+
 /// Neighbours in a smooth mesh are no pairs.
 #[test]
 fn a_sphere_has_few_pairs() {
