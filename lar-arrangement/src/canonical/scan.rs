@@ -2,6 +2,7 @@
 
 use super::vector::{distance, dot, minus};
 use super::{Input, Tolerance};
+use crate::boxes::NO_GROUP;
 use crate::parallel;
 use crate::progress::{Cancelled, Course};
 
@@ -90,17 +91,18 @@ impl Outlines {
 fn coplanar_neighbours(input: &Input, f: u32, largest: f64, found: &mut Vec<[u32; 2]>) {
     let edges = &input.soup.facet_edges[f as usize];
     let triangle = (edges.len() == 3).then(|| Triangle::of(input, f));
-    for edge in edges.iter().filter(|code| code.is_multiple_of(2)).map(|code| code / 2) {
-        let Some(pair) = input.neighbours_at(edge) else { continue };
-        let is_bent = triangle.as_ref().is_some_and(|t| t.is_bent(input, edge, pair[1], largest));
+    for (side, code) in edges.iter().enumerate().filter(|(_, code)| code.is_multiple_of(2)) {
+        let Some(pair) = input.neighbours_at(code / 2) else { continue };
+        let is_bent = triangle.as_ref().is_some_and(|t| t.is_bent(input, side, pair[1], largest));
         if !is_bent && are_nearly_coplanar(input, pair) {
             found.push(pair);
         }
     }
 }
 
-/// A triangle, and a bound of its sides.
+/// A triangle, and a bound of its sides. Side k leads from corner k to the next.
 struct Triangle {
+    base: [u32; 3],
     normal: [f64; 3],
     origin: [f64; 3],
     size: f64,
@@ -109,19 +111,20 @@ struct Triangle {
 impl Triangle {
     fn of(input: &Input, facet: u32) -> Self {
         let geometry = &input.soup.geometry;
-        let [a, b, c] = geometry.base(facet).map(|p| geometry.position(p));
-        Self { normal: geometry.normal(facet), origin: a, size: size(minus(b, a)) + size(minus(c, a)) }
+        let base = geometry.base(facet);
+        let [a, b, c] = base.map(|p| geometry.position(p));
+        Self { base, normal: geometry.normal(facet), origin: a, size: size(minus(b, a)) + size(minus(c, a)) }
     }
 
-    /// Whether the triangle and another one at an edge are bent there by more than the tolerance. Their planes hold the
-    /// edge; the corner of one lies off the plane of the other by det / |n|, and `nearly_holds` allows for tolerance ·
+    /// Whether the triangle and another one at a side are bent there by more than the tolerance. Their planes hold the
+    /// side; the corner of one lies off the plane of the other by det / |n|, and `nearly_holds` allows for tolerance ·
     /// (1 + 2 · distance / width) with width = |n| / longest side. No length is above s, and |n| not above s².
-    fn is_bent(&self, input: &Input, edge: u32, other: u32, tolerance: f64) -> bool {
-        let (soup, geometry) = (input.soup, &input.soup.geometry);
-        if soup.facet_edges[other as usize].len() != 3 {
+    fn is_bent(&self, input: &Input, side: usize, other: u32, tolerance: f64) -> bool {
+        let geometry = &input.soup.geometry;
+        if input.charts.of(other) == NO_GROUP && input.soup.facet_edges[other as usize].len() != 3 {
             return false;
         }
-        let [p, q] = soup.edges[edge as usize];
+        let (p, q) = (self.base[side], self.base[(side + 1) % 3]);
         let [a, b, c] = geometry.base(other);
         let off = minus(geometry.position(a ^ b ^ c ^ p ^ q), self.origin);
         let s = self.size + size(off);
