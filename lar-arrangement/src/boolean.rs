@@ -144,6 +144,7 @@ impl Arrangement {
             inside.push(expression.evaluate_with(&mut stack, is_inside));
         })?;
         course.finish(times);
+        course.go_on()?;
         Ok(self.solid(inside))
     }
 

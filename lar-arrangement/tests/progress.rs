@@ -221,7 +221,7 @@ fn booleans_stop_at_any_report() {
         let n_seen = seen.into_inner().unwrap();
         match done {
             Err(error) => assert_eq!((error, n_seen), (BooleanError::Cancelled, stop + 1)),
-            Ok(_) => return assert!(n_seen <= stop + 1 && stop > 20, "{n_seen} reports, stopped at {stop}"),
+            Ok(_) => return assert!(n_seen <= stop + 1 && stop > 12, "{n_seen} reports, stopped at {stop}"),
         }
     }
 }
