@@ -1,6 +1,7 @@
 //! Exact arrangements of polygonal surfaces as chain complexes, and Booleans over their 3-cells.
 
 mod arrangement;
+mod assemble;
 mod boolean;
 mod boxes;
 mod canonical;
@@ -9,6 +10,7 @@ mod check;
 mod coplanar;
 mod counting;
 mod crossing;
+mod curve;
 mod dissolve;
 mod error;
 mod evaluator;
@@ -22,6 +24,7 @@ mod kernel;
 mod measure;
 mod merge;
 mod nest;
+mod operators;
 mod parallel;
 mod pipeline;
 pub mod planar;

@@ -1,30 +1,30 @@
 //! The driver: surfaces in, arrangement out, stage by stage.
 
-use crate::arrangement::{Arrangement, SolidInfo};
-use crate::boxes::{self, Aabb, BoxTree};
+use crate::arrangement::Arrangement;
+use crate::assemble::{Shells, assemble};
+use crate::boxes::{Aabb, BoxTree};
 use crate::canonical::{self, Input, Report, Scan};
 use crate::charts::Charts;
 use crate::check;
 use crate::coplanar;
 use crate::crossing::{self, Contacts, Scratch};
-use crate::dissolve::{self, Dissolved};
+use crate::curve;
+use crate::dissolve;
 use crate::error::ArrangementError;
 use crate::fragment::{Fragmenter, Fragments, Groups};
 use crate::interner::Interner;
-use crate::merge::Merged;
 use crate::nest::Nesting;
 use crate::parallel;
 use crate::progress::{Cancel, Cancelled, Control, Course, Plan, Progress};
 use crate::skeleton::Skeleton;
-use crate::soup::{Parent, Placed, Soup};
+use crate::soup::{Placed, Soup};
 use crate::split::Cuts;
 use crate::stars::Stars;
 use crate::stats::Stats;
 use crate::tiles::{self, Merge};
 use crate::union_find::UnionFind;
-use crate::winding::{Walls, Windings};
 use crate::wrap;
-use lar_core::{Cells, ChainComplex, Points, Precision, Surface};
+use lar_core::{Precision, Surface};
 use std::num::NonZeroUsize;
 
 /// Pairs of facets a chunk of work.
@@ -317,7 +317,7 @@ fn facet_tree(soup: &Soup, charts: &Charts, reach: f64) -> BoxTree {
         _ => Aabb::around(soup.facet_edges[f as usize].iter().map(|&e| position(soup.directed(e)[0]))),
     };
     let n = soup.geometry.n_points();
-    let all = boxes::hull(n, |p| Aabb { lo: position(p), hi: position(p) });
+    let all = curve::hull(n, |p| Aabb { lo: position(p), hi: position(p) });
     BoxTree::grouped(&larger(all), soup.n_facets(), |f| larger(around(f)), |f| charts.of(f))
 }
 
@@ -389,252 +389,4 @@ fn fragments(
         let _ = range(chunk).try_for_each(|group| fragmenter.fragment(&groups.members[group], &mut out));
         out
     })
-}
-
-struct Shells<'a> {
-    of_side: &'a [u32],
-    n: u32,
-    cell_of: &'a [u32],
-    n_cells: u32,
-}
-
-/// The final numbering, positions and matrices.
-fn assemble(
-    surfaces: &[Surface],
-    mut soup: Soup,
-    skeleton: Skeleton,
-    mut dissolved: Dissolved,
-    shells: &Shells,
-    (mut stats, course): (Stats, &Course),
-) -> Result<Arrangement, Cancelled> {
-    let shells_of_face = parallel::map(dissolved.old_face.len(), |face| {
-        let old = dissolved.old_face[face];
-        [0, 1].map(|side| shells.of_side[(2 * old + side) as usize])
-    });
-    let cells_of_face = parallel::map(shells_of_face.len(), |face| {
-        shells_of_face[face].map(|shell| shells.cell_of[shell as usize])
-    });
-    let Parents { parents, offsets: parent_offsets, crossed: crossed_ends } =
-        Parents::new(&soup, &skeleton, &dissolved);
-    let coefficients = std::mem::take(&mut soup.coefficients);
-    let mut walls = Walls::new();
-    for ((&begin, &end), &cells) in parent_offsets.iter().zip(&crossed_ends).zip(&cells_of_face) {
-        let coefficient = |p: &Parent| i32::from(coefficients[p.solid as usize][p.face as usize]);
-        let of_face = parents[begin as usize..end as usize].iter();
-        walls.push_face(cells, of_face.map(|p| (p.solid, coefficient(p) * i32::from(p.sign))));
-    }
-    let windings = Windings::new(shells.n_cells as usize, surfaces.len(), &walls);
-    course.begin("complex", &mut stats)?;
-    let n_faces = dissolved.old_face.len();
-    let facet_of_face = parallel::map_light(n_faces, |face| skeleton.facet(dissolved.old_face[face]));
-    let plane_of_face = parallel::map_light(n_faces, |face| soup.plane_class(facet_of_face[face]));
-    let vertices = if dissolved.merged.vertices.len() == skeleton.vertices.len() {
-        skeleton.vertices
-    } else {
-        dissolved.merged.vertices.iter().map(|&v| skeleton.vertices[v as usize]).collect()
-    };
-    let edges = std::mem::take(&mut dissolved.merged.edges);
-    let n_edges = edges.len();
-    let (below, (boundary_2, boundary_3)) = parallel::join(
-        || (positions(&soup, &vertices), boundary_1(vertices.len(), edges)),
-        || {
-            parallel::join(
-                || boundary_2(n_edges, &dissolved.merged),
-                || boundary_3(&cells_of_face, shells.n_cells as usize),
-            )
-        },
-    );
-    let (points, boundary_1) = below;
-    let complex = ChainComplex::new(points, vec![boundary_1, boundary_2, boundary_3]);
-    course.finish(&mut stats);
-    stats.grid_step = soup.grid.step();
-    stats.facets = soup.n_facets() as u64;
-    stats.triangulated_polygons = u64::from(soup.triangulated);
-    stats.degenerate_faces = u64::from(soup.degenerate);
-    stats.exact_fallbacks = soup.geometry.counters.exact();
-    Ok(Arrangement {
-        complex,
-        loops: dissolved.merged.loops,
-        face_loops: dissolved.merged.face_loops,
-        rings: dissolved.rings,
-        cells_of_face,
-        shells_of_face,
-        n_shells: shells.n,
-        parents,
-        parent_offsets,
-        crossed_ends,
-        facet_of_face,
-        plane_of_face,
-        windings,
-        solids: surfaces
-            .iter()
-            .zip(coefficients)
-            .map(|(s, coefficients)| SolidInfo { name: s.name.clone(), coefficients })
-            .collect(),
-        vertices,
-        bend: soup.bend,
-        geometry: soup.geometry,
-        grid: soup.grid,
-        stats,
-    })
-}
-
-/// Parents of the new faces, in terms of input faces.
-struct Parents {
-    parents: Vec<Parent>,
-    /// Those of face f are `offsets[f]..offsets[f + 1]`.
-    offsets: Vec<u32>,
-    /// Those of the first piece of face f end at `crossed[f]`: the ones that a path across it crosses.
-    crossed: Vec<u32>,
-}
-
-impl Parents {
-    fn new(soup: &Soup, skeleton: &Skeleton, dissolved: &Dissolved) -> Self {
-        let n = dissolved.old_face.len();
-        let mut out = Self {
-            parents: Vec::with_capacity(n),
-            offsets: Vec::with_capacity(n + 1),
-            crossed: Vec::with_capacity(n),
-        };
-        out.offsets.push(0);
-        let mut rest = dissolved.others.as_slice();
-        for (&first, new) in dissolved.old_face.iter().zip(0..) {
-            let begin = out.parents.len();
-            out.push_piece(soup, skeleton, first);
-            let end = out.parents.len();
-            out.crossed.push(end as u32);
-            let n = rest.iter().take_while(|piece| piece.0 == new).count();
-            rest[..n].iter().for_each(|piece| out.push_piece(soup, skeleton, piece.1));
-            out.keep_new(begin, end);
-            rest = &rest[n..];
-            out.offsets.push(out.parents.len() as u32);
-        }
-        out
-    }
-
-    fn push_piece(&mut self, soup: &Soup, skeleton: &Skeleton, face: u32) {
-        for facet in skeleton.face_parents(face) {
-            let turn = if facet.same_way { 1 } else { -1 };
-            let turned = |p: &Parent| Parent { sign: p.sign * turn, ..*p };
-            self.parents.extend(soup.parents(facet.facet).iter().map(turned));
-        }
-    }
-
-    /// Of the parents from `end` on keeps each once, in order, that is not between `begin` and `end`.
-    fn keep_new(&mut self, begin: usize, end: usize) {
-        if self.parents.len() == end {
-            return;
-        }
-        let mut more = self.parents.split_off(end);
-        let mut known = self.parents[begin..].to_vec();
-        known.sort_unstable();
-        more.sort_unstable();
-        more.dedup();
-        more.retain(|p| known.binary_search(p).is_err());
-        self.parents.append(&mut more);
-    }
-}
-
-fn positions(soup: &Soup, vertices: &[crate::kernel::Vertex]) -> Points {
-    let offset = soup.grid.offset();
-    let coords = parallel::map_light(vertices.len(), |i| {
-        let v = &vertices[i];
-        let steps = if offset == [0; 3] { v.at } else { soup.geometry.rounded_after(v, offset) };
-        steps.map(|x| soup.grid.length(x))
-    });
-    Points::from_columns(3, coords.into_flattened())
-}
-
-pub(crate) fn boundary_1(n_vertices: usize, edges: Vec<[u32; 2]>) -> lar_core::Operator {
-    let (mut offsets, mut signs) = (vec![0; edges.len() + 1], vec![0; 2 * edges.len()]);
-    parallel::each_chunk(&mut offsets, |begin, part| {
-        part.iter_mut().zip((2 * begin as u32..).step_by(2)).for_each(|(to, offset)| *to = offset);
-    });
-    parallel::each_chunk(&mut signs, |_, part| {
-        part.chunks_exact_mut(2).for_each(|pair| pair.copy_from_slice(&[-1, 1]));
-    });
-    let columns = Cells::from_parts(offsets, edges.into_flattened());
-    ChainComplex::operator_from_columns(n_vertices, columns, signs)
-}
-
-pub(crate) fn boundary_2(n_edges: usize, faces: &Merged) -> lar_core::Operator {
-    let n_faces = faces.face_loops.len() - 1;
-    let parts = parallel::map(parallel::n_threads(), |part| {
-        let range = parallel::part_of(n_faces, part);
-        let mut columns =
-            Columns::with_capacity(faces.loops.indices().len() * range.len() / n_faces.max(1) + 8);
-        range.for_each(|face| {
-            columns.push(faces.face_loops[face] as usize..faces.face_loops[face + 1] as usize, faces);
-        });
-        columns
-    });
-    let Columns { ends, edges, signs, .. } = Columns::joined(parts);
-    ChainComplex::operator_from_columns(n_edges, Cells::from_parts(ends, edges), signs)
-}
-
-/// Columns of ∂2.
-struct Columns {
-    /// Where each column ends, after a 0.
-    ends: Vec<u32>,
-    edges: Vec<u32>,
-    signs: Vec<i8>,
-    /// The half-edges of a column.
-    scratch: Vec<u32>,
-}
-
-impl Columns {
-    fn with_capacity(n: usize) -> Self {
-        let (edges, signs) = (Vec::with_capacity(n), Vec::with_capacity(n));
-        Self { ends: vec![0], edges, signs, scratch: Vec::new() }
-    }
-
-    /// Adds the face with some loops. An edge that stands in them in both directions is no boundary.
-    fn push(&mut self, loops: std::ops::Range<usize>, faces: &Merged) {
-        let offsets = faces.loops.offsets();
-        let half_edges = &faces.loops.indices()[offsets[loops.start] as usize..offsets[loops.end] as usize];
-        self.scratch.clear();
-        self.scratch.extend_from_slice(half_edges);
-        self.scratch.sort_unstable();
-        for same in self.scratch.chunk_by(|a, b| a / 2 == b / 2) {
-            if let &[h] = same {
-                self.edges.push(h / 2);
-                self.signs.push(1 - 2 * (h % 2) as i8);
-            }
-        }
-        self.ends.push(self.edges.len() as u32);
-    }
-
-    fn joined(parts: Vec<Self>) -> Self {
-        let mut parts = parts.into_iter();
-        let mut all = parts.next().unwrap_or_else(|| Self::with_capacity(0));
-        for part in parts {
-            let base = all.edges.len() as u32;
-            all.ends.extend(part.ends[1..].iter().map(|end| base + end));
-            all.edges.extend(part.edges);
-            all.signs.extend(part.signs);
-        }
-        all
-    }
-}
-
-fn boundary_3(cells_of_face: &[[u32; 2]], n_cells: usize) -> lar_core::Operator {
-    let mut offsets = vec![0u32; n_cells + 1];
-    let proper = || cells_of_face.iter().zip(0u32..).filter(|([front, back], _)| front != back);
-    for (cells, _) in proper() {
-        cells.iter().for_each(|&c| offsets[c as usize + 1] += 1);
-    }
-    for c in 0..n_cells {
-        offsets[c + 1] += offsets[c];
-    }
-    let mut fill = offsets.clone();
-    let mut faces = vec![0; offsets[n_cells] as usize];
-    let mut signs = vec![0i8; faces.len()];
-    for (cells, face) in proper() {
-        for (&cell, sign) in cells.iter().zip([-1, 1]) {
-            let at = fill[cell as usize] as usize;
-            (faces[at], signs[at]) = (face, sign);
-            fill[cell as usize] += 1;
-        }
-    }
-    ChainComplex::operator_from_columns(cells_of_face.len(), Cells::from_parts(offsets, faces), signs)
 }

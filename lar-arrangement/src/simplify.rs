@@ -7,7 +7,7 @@
 use crate::boolean::Solid;
 use crate::evaluator::Evaluator;
 use crate::merge::{self, Faces, Merged, Removal};
-use crate::pipeline::{boundary_1, boundary_2};
+use crate::operators::{boundary_1, boundary_2};
 use crate::progress::{Cancelled, Course, Plan};
 use crate::soup::Parent;
 use crate::split::offsets;

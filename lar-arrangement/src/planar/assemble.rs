@@ -2,8 +2,8 @@
 
 use crate::counting::offsets;
 use crate::grid::Grid;
+use crate::operators::boundary_1;
 use crate::parallel;
-use crate::pipeline::boundary_1;
 use crate::planar::carriers::Carriers;
 use crate::planar::chains::Chains;
 use crate::planar::edges::Edges;

@@ -5,8 +5,9 @@
 //! then y) to the larger, and are ranked by slope: the angular order of half-edges around any vertex is then an
 //! order of integers.
 
-use crate::boxes::{Aabb, z_order};
+use crate::boxes::Aabb;
 use crate::counting::sorted_numbers;
+use crate::curve::z_order;
 use crate::kernel::Sign;
 use crate::parallel;
 use crate::planar::input::Drawing;

@@ -1,6 +1,6 @@
 //! Isolated vertices: points of the drawing with no segment, kept on demand.
 
-use crate::pipeline::boundary_1;
+use crate::operators::boundary_1;
 use crate::planar::chains::VertexSource;
 use crate::planar::location::Location;
 use crate::planar::result::PlanarArrangement;

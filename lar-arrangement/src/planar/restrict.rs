@@ -8,7 +8,7 @@ use crate::boolean::FillRule;
 use crate::error::ArrangementError;
 use crate::expression::Expression;
 use crate::merge::{self, Faces, Merged, Removal};
-use crate::pipeline::{boundary_1, boundary_2};
+use crate::operators::{boundary_1, boundary_2};
 use crate::planar::edges::NO_EDGE;
 use crate::planar::input::Drawing;
 use crate::planar::result::{Dangling, PlanarArrangement, PlanarArranger};

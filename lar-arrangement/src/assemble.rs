@@ -1,0 +1,168 @@
+//! Stage 5c: the arrangement put together: final numbers, positions, winding numbers.
+
+use crate::arrangement::{Arrangement, SolidInfo};
+use crate::dissolve::Dissolved;
+use crate::kernel::Vertex;
+use crate::operators::{boundary_1, boundary_2, boundary_3};
+use crate::parallel;
+use crate::progress::{Cancelled, Course};
+use crate::skeleton::Skeleton;
+use crate::soup::{Parent, Soup};
+use crate::stats::Stats;
+use crate::winding::{Walls, Windings};
+use lar_core::{ChainComplex, Points, Surface};
+
+/// The shells of the faces, and the cells that they bound.
+pub(crate) struct Shells<'a> {
+    pub of_side: &'a [u32],
+    pub n: u32,
+    pub cell_of: &'a [u32],
+    pub n_cells: u32,
+}
+
+/// The final numbering, positions and matrices.
+pub(crate) fn assemble(
+    surfaces: &[Surface],
+    mut soup: Soup,
+    skeleton: Skeleton,
+    mut dissolved: Dissolved,
+    shells: &Shells,
+    (mut stats, course): (Stats, &Course),
+) -> Result<Arrangement, Cancelled> {
+    let shells_of_face = parallel::map(dissolved.old_face.len(), |face| {
+        let old = dissolved.old_face[face];
+        [0, 1].map(|side| shells.of_side[(2 * old + side) as usize])
+    });
+    let cells_of_face = parallel::map(shells_of_face.len(), |face| {
+        shells_of_face[face].map(|shell| shells.cell_of[shell as usize])
+    });
+    let Parents { parents, offsets: parent_offsets, crossed: crossed_ends } =
+        Parents::new(&soup, &skeleton, &dissolved);
+    let coefficients = std::mem::take(&mut soup.coefficients);
+    let mut walls = Walls::new();
+    for ((&begin, &end), &cells) in parent_offsets.iter().zip(&crossed_ends).zip(&cells_of_face) {
+        let coefficient = |p: &Parent| i32::from(coefficients[p.solid as usize][p.face as usize]);
+        let of_face = parents[begin as usize..end as usize].iter();
+        walls.push_face(cells, of_face.map(|p| (p.solid, coefficient(p) * i32::from(p.sign))));
+    }
+    let windings = Windings::new(shells.n_cells as usize, surfaces.len(), &walls);
+    course.begin("complex", &mut stats)?;
+    let n_faces = dissolved.old_face.len();
+    let facet_of_face = parallel::map_light(n_faces, |face| skeleton.facet(dissolved.old_face[face]));
+    let plane_of_face = parallel::map_light(n_faces, |face| soup.plane_class(facet_of_face[face]));
+    let vertices = if dissolved.merged.vertices.len() == skeleton.vertices.len() {
+        skeleton.vertices
+    } else {
+        dissolved.merged.vertices.iter().map(|&v| skeleton.vertices[v as usize]).collect()
+    };
+    let edges = std::mem::take(&mut dissolved.merged.edges);
+    let n_edges = edges.len();
+    let (below, (boundary_2, boundary_3)) = parallel::join(
+        || (positions(&soup, &vertices), boundary_1(vertices.len(), edges)),
+        || {
+            parallel::join(
+                || boundary_2(n_edges, &dissolved.merged),
+                || boundary_3(&cells_of_face, shells.n_cells as usize),
+            )
+        },
+    );
+    let (points, boundary_1) = below;
+    let complex = ChainComplex::new(points, vec![boundary_1, boundary_2, boundary_3]);
+    course.finish(&mut stats);
+    stats.grid_step = soup.grid.step();
+    stats.facets = soup.n_facets() as u64;
+    stats.triangulated_polygons = u64::from(soup.triangulated);
+    stats.degenerate_faces = u64::from(soup.degenerate);
+    stats.exact_fallbacks = soup.geometry.counters.exact();
+    Ok(Arrangement {
+        complex,
+        loops: dissolved.merged.loops,
+        face_loops: dissolved.merged.face_loops,
+        rings: dissolved.rings,
+        cells_of_face,
+        shells_of_face,
+        n_shells: shells.n,
+        parents,
+        parent_offsets,
+        crossed_ends,
+        facet_of_face,
+        plane_of_face,
+        windings,
+        solids: surfaces
+            .iter()
+            .zip(coefficients)
+            .map(|(s, coefficients)| SolidInfo { name: s.name.clone(), coefficients })
+            .collect(),
+        vertices,
+        bend: soup.bend,
+        geometry: soup.geometry,
+        grid: soup.grid,
+        stats,
+    })
+}
+
+/// Parents of the new faces, in terms of input faces.
+struct Parents {
+    parents: Vec<Parent>,
+    /// Those of face f are `offsets[f]..offsets[f + 1]`.
+    offsets: Vec<u32>,
+    /// Those of the first piece of face f end at `crossed[f]`: the ones that a path across it crosses.
+    crossed: Vec<u32>,
+}
+
+impl Parents {
+    fn new(soup: &Soup, skeleton: &Skeleton, dissolved: &Dissolved) -> Self {
+        let n = dissolved.old_face.len();
+        let mut out = Self {
+            parents: Vec::with_capacity(n),
+            offsets: Vec::with_capacity(n + 1),
+            crossed: Vec::with_capacity(n),
+        };
+        out.offsets.push(0);
+        let mut rest = dissolved.others.as_slice();
+        for (&first, new) in dissolved.old_face.iter().zip(0..) {
+            let begin = out.parents.len();
+            out.push_piece(soup, skeleton, first);
+            let end = out.parents.len();
+            out.crossed.push(end as u32);
+            let n = rest.iter().take_while(|piece| piece.0 == new).count();
+            rest[..n].iter().for_each(|piece| out.push_piece(soup, skeleton, piece.1));
+            out.keep_new(begin, end);
+            rest = &rest[n..];
+            out.offsets.push(out.parents.len() as u32);
+        }
+        out
+    }
+
+    fn push_piece(&mut self, soup: &Soup, skeleton: &Skeleton, face: u32) {
+        for facet in skeleton.face_parents(face) {
+            let turn = if facet.same_way { 1 } else { -1 };
+            let turned = |p: &Parent| Parent { sign: p.sign * turn, ..*p };
+            self.parents.extend(soup.parents(facet.facet).iter().map(turned));
+        }
+    }
+
+    /// Of the parents from `end` on keeps each once, in order, that is not between `begin` and `end`.
+    fn keep_new(&mut self, begin: usize, end: usize) {
+        if self.parents.len() == end {
+            return;
+        }
+        let mut more = self.parents.split_off(end);
+        let mut known = self.parents[begin..].to_vec();
+        known.sort_unstable();
+        more.sort_unstable();
+        more.dedup();
+        more.retain(|p| known.binary_search(p).is_err());
+        self.parents.append(&mut more);
+    }
+}
+
+fn positions(soup: &Soup, vertices: &[Vertex]) -> Points {
+    let offset = soup.grid.offset();
+    let coords = parallel::map_light(vertices.len(), |i| {
+        let v = &vertices[i];
+        let steps = if offset == [0; 3] { v.at } else { soup.geometry.rounded_after(v, offset) };
+        steps.map(|x| soup.grid.length(x))
+    });
+    Points::from_columns(3, coords.into_flattened())
+}
