@@ -29,7 +29,7 @@ fn each_feature_has_its_test() {
         assert!(source.contains(&format!("fn {test}(")), "{file} has no test {test}");
         n += 1;
     }
-    assert_eq!(n, 18);
+    assert_eq!(n, 26);
 }
 
 /// The commands of the first table, and the pictures beside them.
@@ -47,7 +47,7 @@ fn each_picture_is_what_its_command_draws() {
     }
     let cubes = text.split("`C=\"").nth(1).and_then(|rest| rest.split('"').next()).expect("the cubes");
     let commands = commands(&text);
-    assert_eq!(commands.len(), 7);
+    assert_eq!(commands.len(), 9);
     for command in commands {
         let name = command.split(" -o ").nth(1).and_then(|rest| rest.split(' ').next()).expect("an output");
         let script = format!("\"$LAR\" {}", command.trim_start_matches("lar "));
@@ -80,5 +80,5 @@ fn each_picture_is_there() {
         assert!(root().join("docs").join(picture).is_file(), "{picture}");
         n += 1;
     }
-    assert_eq!(n, 8);
+    assert_eq!(n, 10);
 }

@@ -22,7 +22,7 @@ fn has_adapter() -> bool {
 }
 
 /// Options and how many pixels they change at least, against the picture without them.
-const OPTIONS: [(&str, usize); 21] = [
+const OPTIONS: [(&str, usize); 22] = [
     ("--view top", 1000),
     ("--azimuth 30 --elevation 10", 1000),
     ("--eye 5,4,3 --target 0,0,0.5 --up 0,1,0", 1000),
@@ -41,6 +41,7 @@ const OPTIONS: [(&str, usize); 21] = [
     ("--color class", 500),
     ("--color size", 500),
     ("--exterior translucent", 300),
+    ("--outline cells", 100),
     ("--clip z=0.5", 500),
     ("--clip 1,1,0,0.5 --whole-cells", 500),
     ("--background #102030", 5000),
@@ -77,8 +78,18 @@ fn svg_needs_no_adapter_and_hides_lines() {
         let bytes = drawn(&place, CUBES, "out.svg", options);
         String::from_utf8(bytes).unwrap().matches('M').count()
     };
-    let [through, seen] = ["--alpha 0.2 --explode 1.5", "--alpha 1 --explode 1.5"].map(count);
+    let [through, seen] = ["--alpha 0.2 --explode 1.5 --lines", "--alpha 1 --explode 1.5 --lines"].map(count);
     assert!(30 < seen && seen < through, "{seen} of {through}");
+    let filled = drawn(&place, CUBES, "filled.svg", "--explode 1.5 --alpha 0.5 --color size --outline cells");
+    let filled = String::from_utf8(filled).unwrap();
+    let faces = filled.matches("opacity=\"0.5\" d=\"M").count();
+    assert!(75 < faces, "75 faces, most of them of two cells, and lines behind one: {faces}");
+    let without =
+        String::from_utf8(drawn(&place, CUBES, "plain.svg", "--explode 1.5 --alpha 0.5 --outline cells"))
+            .unwrap();
+    let paths = |text: &str| text.matches("<path").count();
+    assert!(64 <= paths(&filled) - paths(&without), "the legend has 64 colours");
+    assert!(filled.contains("stroke-width=\"4\""), "outlines");
     let bytes = drawn(&place, CUBES, "a.svg", "--explode 1.5");
     assert!(drawn(&place, CUBES, "b.svg", "--explode 1.5") == bytes);
 }
@@ -87,7 +98,7 @@ fn svg_needs_no_adapter_and_hides_lines() {
 fn drawings_of_the_plane_are_rendered_too() {
     let place = Place::with_cubes();
     std::fs::write(place.path("cross.seg"), "0 0 2 0\n2 0 2 2\n2 2 0 2\n0 2 0 0\n1 -1 1 3\n").unwrap();
-    let svg = String::from_utf8(drawn(&place, "cross.seg", "out.svg", "--view top --ortho")).unwrap();
+    let svg = String::from_utf8(drawn(&place, "cross.seg", "out.svg", "--view top --ortho --lines")).unwrap();
     assert_eq!(svg.matches('M').count(), 10, "one is the background, nine are edges: {svg}");
     if has_adapter() {
         drawn(&place, "cross.seg", "out.png", "--view top --ortho --alpha 1 --numbers faces");

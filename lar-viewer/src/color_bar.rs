@@ -1,8 +1,8 @@
 //! The legend of a colour map: a bar with ticks and numbers.
 
 use crate::{
-    Camera, ColorMap, Drawable, HorizontalAlign, INK, Image, Label, OffscreenRenderer, Projection, Rgb,
-    Scene, StandardView, TextStyle, View, ViewerError,
+    Camera, ColorMap, Drawable, HorizontalAlign, INK, Image, Label, LineDrawing, OffscreenRenderer,
+    Projection, Rgb, Scene, StandardView, TextStyle, View, ViewerError,
 };
 use lar_core::{Points, TriangleMesh};
 
@@ -64,13 +64,28 @@ impl ColorBar {
     /// # Errors
     /// Those of [`OffscreenRenderer::render`].
     pub fn image(&self, renderer: &mut OffscreenRenderer, height: u32) -> Result<Image, ViewerError> {
+        let (scene, view, width) = self.shown(height)?;
+        renderer.render(&scene, &view, width, height)
+    }
+
+    /// The bar as a drawing of this height in pixels.
+    ///
+    /// # Errors
+    /// `Coordinate` when the range is not finite, `InvalidView` without height.
+    pub fn drawing(&self, height: u32) -> Result<LineDrawing, ViewerError> {
+        let (scene, view, width) = self.shown(height)?;
+        LineDrawing::filled(&scene, &view, [width, height])
+    }
+
+    /// The scene, seen from above, and the width that it needs at this height.
+    fn shown(&self, height: u32) -> Result<(Scene, View, u32), ViewerError> {
         let scene = self.scene(INK, (f64::from(height) / 26.0).clamp(6.0, 60.0))?;
         let orientation = StandardView::Top.orientation();
         let camera = Camera { orientation, projection: Projection::Orthographic, ..Camera::default() };
         let camera = Camera { target: [0.5 * WIDTHS[1] - 0.05, 0.52, 0.0], ..camera }.orthographic(1.25)?;
         let view = View { camera, background: [1.0; 3], background_opacity: 0.0, ..View::default() };
         let width = (f64::from(height) * WIDTHS[1] / 1.25).ceil().max(1.0) as u32;
-        renderer.render(&scene, &view, width, height)
+        Ok((scene, view, width))
     }
 }
 

@@ -142,7 +142,7 @@ impl Prepared<'_> {
     /// # Errors
     /// `InvalidView`, `ImageSize`, `TooManyLayers`, or `Gpu` with the driver's message.
     pub fn render(&mut self, view: &View, width: u32, height: u32) -> Result<Image, ViewerError> {
-        self.renderer.draw(&self.buffers, view, width, height)?;
+        self.renderer.draw(&[&self.buffers], view, width, height)?;
         self.renderer.read_picture()
     }
 
@@ -166,7 +166,7 @@ impl Prepared<'_> {
         pixel: [u32; 2],
         radius: u32,
     ) -> Result<Option<Hit>, ViewerError> {
-        let seen = self.renderer.pick(&self.buffers, view, size, pixel, radius)?;
-        Ok(seen.map(|seen| Hit::new(self.scene, view, size, seen)))
+        let seen = self.renderer.pick(&[&self.buffers], view, size, pixel, radius)?;
+        Ok(seen.map(|seen| Hit::new(self.scene, self.buffers.placement.center, view, size, seen)))
     }
 }

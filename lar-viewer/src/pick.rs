@@ -17,22 +17,25 @@ pub struct Hit {
     pub owner: Option<CellRef>,
     /// The point that is seen, in the scene before it is exploded.
     pub point: [f64; 3],
+    /// How far the explosion moves it.
+    pub moved: [f64; 3],
     /// The pixel, from the left and the top.
     pub pixel: [u32; 2],
 }
 
 impl Hit {
-    pub(crate) fn new(scene: &Scene, view: &View, size: [u32; 2], seen: Seen) -> Self {
-        let Seen { drawable, element, pixel } = seen;
+    /// What was seen of a scene whose centre is `center`.
+    pub(crate) fn new(scene: &Scene, center: [f64; 3], view: &View, size: [u32; 2], seen: Seen) -> Self {
+        let Seen { drawable, element, pixel, .. } = seen;
         let shown = &scene.drawables()[drawable];
         let element = shown.label_of_stroke(element).unwrap_or(element);
-        let moved = DVec3::from(scene.displacement(shown, &view.explode, scene.center()));
+        let moved = scene.displacement(shown, &view.explode, center);
         let [width, height] = size.map(f64::from);
         let cursor = [f64::from(pixel[0]) + 0.5 - 0.5 * width, f64::from(pixel[1]) + 0.5 - 0.5 * height];
         let (origin, direction) = ray(&view.camera, cursor, height);
-        let point = point_on(&shown.corners_of_element(element), origin - moved, direction);
+        let point = point_on(&shown.corners_of_element(element), origin - DVec3::from(moved), direction);
         let (cell, owner) = (shown.cell_of_element(element), shown.cell_ref());
-        Self { drawable, element, cell, owner, point: point.to_array(), pixel }
+        Self { drawable, element, cell, owner, point: point.to_array(), moved, pixel }
     }
 }
 

@@ -1,6 +1,6 @@
 //! What is chosen anew for each picture: camera, explosion, opacity, background.
 
-use crate::{Camera, Clip, Explosion, Rgb, SLATE, Scene, ViewerError};
+use crate::{Camera, Clip, Explosion, Outline, Rgb, SLATE, Scene, ViewerError};
 
 /// Samples per pixel and axis when nothing else is asked for.
 const DEFAULT_SAMPLES: u32 = 3;
@@ -25,6 +25,8 @@ pub struct View {
     pub opacity: f32,
     /// Whether cell edges are drawn.
     pub edges: bool,
+    /// Silhouettes.
+    pub outline: Option<Outline>,
     /// Colour behind everything.
     pub background: Rgb,
     /// Opacity of the background: below 1 the picture is transparent where nothing is drawn.
@@ -46,6 +48,7 @@ impl Default for View {
             clip: None,
             opacity: 1.0,
             edges: true,
+            outline: None,
             background: SLATE,
             background_opacity: 1.0,
             scale: 1.0,
@@ -103,6 +106,7 @@ impl View {
             within("a coordinate of the explosion's fixed point", x, -1e100, 1e100, expected)?;
         }
         self.clip.map_or(Ok(()), |clip| clip.validate())?;
+        self.outline.map_or(Ok(()), |outline| outline.validate())?;
         within("the opacity", f64::from(self.opacity), 0.0, 1.0, "in 0..=1")?;
         let background = f64::from(self.background_opacity);
         within("the background's opacity", background, 0.0, 1.0, "in 0..=1")?;
@@ -138,6 +142,8 @@ mod tests {
             "length of the clip plane's normal is 0",
         );
         check_refused(View { background_opacity: -0.1, ..good }, "background's opacity is -0.1");
+        let outline = Some(Outline { width: f32::NAN, ..Outline::default() });
+        check_refused(View { outline, ..good }, "width of outlines is NaN");
         check_refused(View { samples: 0, ..good }, "samples is 0");
         check_refused(View { scale: 0.0, ..good }, "scale of lines is 0");
         check_refused(View { background: [0.0, 2.0, 0.0], ..good }, "background channel is 2");

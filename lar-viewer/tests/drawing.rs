@@ -2,7 +2,11 @@
 mod support;
 
 use glam::DVec3;
-use lar_viewer::{Camera, CellStyle, Clip, LineDrawing, Projection, Scene, View, push_cells};
+use lar_core::TriangleMesh;
+use lar_viewer::{
+    Camera, CellStyle, Clip, ColorBar, ColorMap, Drawable, InkArea, LineDrawing, Outline, Outlined,
+    Projection, Rgb, Scene, View, push_cells,
+};
 use proptest::prelude::*;
 use support::{cube_grid, cuboid};
 
@@ -149,4 +153,122 @@ fn shares_place(shapes: &[lar_viewer::CellShape], view: &View, point: DVec3, at:
         let [Some(a), Some(b)] = ends else { return false };
         1e-6 < off && distance(at, [a, b]) < 0.01
     })
+}
+
+fn filled(scene: &Scene, view: &View) -> LineDrawing {
+    LineDrawing::filled(scene, view, SIZE).unwrap()
+}
+
+#[test]
+fn faces_are_filled_and_lines_behind_them_are_faint() {
+    let scene = cells(1, 1.0);
+    let view = View::fitted(&scene, [1.0; 3], 4.0 / 3.0);
+    let drawing = filled(&scene, &view);
+    assert_eq!(drawing.lines(), drawn(&scene, &view).lines(), "opaque faces hide lines, filled or not");
+    assert_eq!(drawing.areas().len(), 6);
+    assert!(drawing.areas().iter().all(|a| a.loops.len() == 1 && a.loops[0].len() == 4 && a.opacity == 1.0));
+    let translucent = filled(&cells(1, 0.5), &view);
+    // The edges at the hidden corner are behind one face, in pieces where they pass from one to another.
+    let faint: Vec<f64> = translucent.lines().iter().map(|l| l.opacity).filter(|o| *o < 1.0).collect();
+    assert!(3 <= faint.len() && faint.iter().all(|o| *o == 0.5), "{faint:?}");
+    let svg = translucent.to_svg();
+    assert_eq!(svg.matches(" opacity=\"0.5\"").count(), 6 + 1, "six faces, one path of lines: {svg}");
+    assert!(filled(&scene, &View { clip: Some(Clip::new([0.0, 0.0, 1.0], 0.5)), ..view }).areas().len() == 5);
+}
+
+#[test]
+fn outlines_are_where_a_solid_ends() {
+    let scene = cells(1, 1.0);
+    let view = View { edges: false, ..View::fitted(&scene, [1.0; 3], 4.0 / 3.0) };
+    let outline = Some(Outline { of: Outlined::Model, ..Outline::default() });
+    let contour = drawn(&scene, &View { outline, ..view });
+    assert_eq!(contour.lines().len(), 6, "a cube seen from a corner is a hexagon");
+    assert!(contour.lines().iter().all(|l| l.width == 4.0));
+    let eight = cells(2, 1.0);
+    let of = |of: Outlined, explode: f32| {
+        let outline = Some(Outline { of, ..Outline::default() });
+        let view = View { edges: false, outline, ..View::fitted(&eight, [explode; 3], 4.0 / 3.0) };
+        drawn(&eight, &view).lines().len()
+    };
+    assert_eq!(of(Outlined::Model, 1.0), 12, "two edges on each side of the hexagon, none between cells");
+    assert!(24 < of(Outlined::Cells, 2.0));
+}
+
+#[test]
+fn a_legend_is_put_over_a_drawing() {
+    let bar = ColorBar { map: ColorMap::Sequential, range: [0.0, 2.0], title: "volume".into() };
+    let legend = bar.drawing(150).unwrap();
+    assert_eq!(legend.areas().len(), 64);
+    assert!(
+        legend.areas().iter().all(|a| a.loops.len() == 1 && a.loops[0].len() == 4),
+        "two triangles, one face"
+    );
+    let scene = cells(1, 1.0);
+    let mut drawing = filled(&scene, &View::fitted(&scene, [1.0; 3], 4.0 / 3.0));
+    drawing.overlay(&legend, [300.0, 10.0]);
+    let placed = &drawing.areas()[6..];
+    let corners = || placed.iter().flat_map(|a| a.loops.iter().flatten());
+    assert!(
+        placed.len() == 64
+            && corners().all(|[x, y]| (100.0..200.0).contains(x) && (-20.0..140.0).contains(y))
+    );
+}
+
+fn holds(area: &InkArea, [x, y]: [f64; 2]) -> bool {
+    let sides = area.loops.iter().flat_map(|l| l.iter().zip(l.iter().cycle().skip(1)));
+    let crossed = sides
+        .filter(|(a, b)| (a[1] <= y) != (b[1] <= y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]));
+    crossed.count() % 2 == 1
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+    /// What is on top at a pixel is what a ray meets first.
+    #[test]
+    fn the_nearest_face_is_on_top(
+        boxes in prop::collection::vec((prop::array::uniform3(0.0..0.4_f64), prop::array::uniform3(0.2..0.6_f64)), 8),
+        azimuth in -3.0..3.0_f64,
+        elevation in -1.4..1.4_f64,
+        pixels in prop::collection::vec(prop::array::uniform2(-150.0..150.0_f64), 40),
+    ) {
+        let mut scene = Scene::new();
+        let mut faces: Vec<([[DVec3; 3]; 2], Rgb)> = Vec::new();
+        for (i, (low, size)) in (0..).zip(&boxes) {
+            let min: [f64; 3] = std::array::from_fn(|k| f64::from(i >> k & 1) + low[k]);
+            let shape = cuboid(i, min, std::array::from_fn(|k| min[k] + size[k]));
+            for pair in shape.mesh.triangles.chunks_exact(2) {
+                let color = [0.1 * i as f32, 0.15 * (faces.len() % 6) as f32, 0.5];
+                let mesh = TriangleMesh { points: shape.mesh.points.clone(), triangles: pair.to_vec() };
+                scene.push(Drawable::mesh("face", mesh).color(color).unlit()).unwrap();
+                let corner = |v: u32| DVec3::from(shape.mesh.points.xyz(v as usize));
+                faces.push(([pair[0].map(corner), pair[1].map(corner)], color));
+            }
+        }
+        let camera = Camera {
+            orientation: lar_viewer::Orientation::turntable(azimuth, elevation),
+            projection: Projection::Orthographic,
+            ..Camera::default()
+        };
+        let view = View { camera, ..View::default() }.fit(&scene, 4.0 / 3.0);
+        let drawing = filled(&scene, &view);
+        let [right, up, back] = view.camera.axes().map(DVec3::from);
+        for [x, y] in pixels {
+            let unit = view.camera.world_per_pixel(300.0);
+            let eye = DVec3::from(view.camera.target) + unit * (x * right + y * up) + 50.0 * back;
+            let hits = faces.iter().flat_map(|(pair, color)| pair.iter().map(move |t| (t, color)));
+            let hits = hits.map(|(t, color)| (blocked(eye - 200.0 * back, eye, *t), t, color));
+            let hits: Vec<_> = hits.collect();
+            // Near a side it is a matter of rounding.
+            if hits.iter().any(|((_, clear), ..)| *clear < 0.02) {
+                continue;
+            }
+            let height = |t: &[DVec3; 3]| {
+                let normal = (t[1] - t[0]).cross(t[2] - t[0]);
+                normal.dot(eye - t[0]) / normal.dot(back)
+            };
+            let nearest = hits.iter().filter(|((hit, _), ..)| *hit).min_by(|a, b| height(a.1).total_cmp(&height(b.1)));
+            let on_top = drawing.areas().iter().rev().find(|area| holds(area, [x, y])).map(|area| area.color);
+            prop_assert_eq!(on_top, nearest.map(|(_, _, color)| **color), "at {} {}", x, y);
+        }
+    }
 }

@@ -2,8 +2,8 @@
 mod support;
 
 use lar_viewer::{
-    Appearance, CellRef, CellStyle, Clip, Drawable, Explosion, Hit, OffscreenRenderer, Scene, View, WHITE,
-    push_cells,
+    Appearance, CellRef, CellStyle, Clip, Drawable, Explosion, Hit, OffscreenRenderer, Outline, Outlined,
+    Scene, View, WHITE, push_cells,
 };
 use support::{cube_grid, cuboid, differing, renderer};
 
@@ -277,4 +277,53 @@ fn a_transparent_background_is_transparent_and_colours_stay() {
         .collect();
     let expected = draw(&mut renderer, &scene, &view);
     assert_eq!(differing(&over_white, &expected, 3), 0);
+}
+
+/// The dark pixels that an outline adds in a picture without edges.
+fn inked(renderer: &mut OffscreenRenderer, scene: &Scene, view: &View, of: Outlined) -> usize {
+    let outline = Some(Outline { of, width: 3.0, color: [0.0, 0.0, 1.0] });
+    let outlined = draw(renderer, scene, &View { outline, ..*view });
+    outlined.chunks_exact(4).filter(|p| p[2] > 200 && p[0] < 60 && p[1] < 60).count()
+}
+
+/// Two solids, each of two cubes side by side: around everything, around each solid, around each cube there is ever more ink,
+/// and none of it where a cube is seen through another.
+#[test]
+fn outlines_are_around_the_model_its_solids_or_its_cells() {
+    let Some(mut renderer) = renderer() else { return };
+    let mut scene = Scene::new();
+    for x in [0.0, 2.0] {
+        let solid = scene.push_group([x + 1.0, 0.5, 0.5]).unwrap();
+        for dx in [0.0, 1.0] {
+            let cell = scene.push_subgroup(solid, [x + dx + 0.5, 0.5, 0.5]).unwrap();
+            let shape = cuboid(0, [x + dx, 0.0, 0.0], [x + dx + 1.0, 1.0, 1.0]);
+            scene.push(Drawable::mesh("cube", shape.mesh).group(cell).opacity(0.6)).unwrap();
+        }
+    }
+    let front = lar_viewer::Camera {
+        orientation: lar_viewer::StandardView::Front.orientation(),
+        projection: lar_viewer::Projection::Orthographic,
+        ..lar_viewer::Camera::default()
+    };
+    let view = View { camera: front, background: WHITE, samples: 2, ..View::default() }.fit(&scene, ASPECT);
+    let [model, solids, cells] = [Outlined::Model, Outlined::Solids, Outlined::Cells]
+        .map(|of| inked(&mut renderer, &scene, &view, of));
+    // A row of four squares: ten sides around everything, one between the solids, two more between cells; a line of three
+    // pixels has two or three that are all ink, as it lies.
+    let side = model as f64 / 10.0;
+    let [between_solids, between_cells] = [solids - model, cells - solids].map(|n| n as f64 / side);
+    let shares = (0.8..1.2).contains(&between_solids) && (1.7..3.1).contains(&between_cells);
+    assert!(500 < model && shares, "{model} {solids} {cells}");
+    let apart = View { explode: Explosion::default().level(1, [1.2; 3]), ..view };
+    assert!(
+        solids + 20 < inked(&mut renderer, &scene, &apart, Outlined::Solids),
+        "pulled apart, all against the background"
+    );
+    let plain = draw(&mut renderer, &scene, &view);
+    let mut portable = OffscreenRenderer::portable().unwrap();
+    assert!(
+        cells.abs_diff(inked(&mut portable, &scene, &view, Outlined::Cells)) < 20,
+        "the same without storage buffers"
+    );
+    assert!(draw(&mut renderer, &scene, &view) == plain, "no ink is left");
 }

@@ -48,7 +48,7 @@ impl ChainComplex {
             (0..self.n_cells(2)).for_each(|f| push_face(self, f, &mut svg));
         }
         let width = (hi[0] - lo[0]).max(hi[1] - lo[1]) / 400.;
-        let style = SvgStyle { id: "edges", fill: None, stroke: Some(("#222", width)) };
+        let style = SvgStyle { id: "edges", fill: None, stroke: Some(("#222", width)), opacity: None };
         let edges = (0..self.n_cells(1)).filter_map(|e| self.edge_ends(e));
         svg.path(&style, edges.map(|ends| (run(self, &ends), false)));
         Ok(svg.finish())
@@ -72,7 +72,7 @@ fn push_face(complex: &ChainComplex, f: usize, svg: &mut SvgWriter) {
     if area >= 0. {
         let (id, hue) = (format!("f{f}"), (f as f64 * GOLDEN_ANGLE % 360.) as u32);
         let fill = format!("hsl({hue} 65% 72%)");
-        let style = SvgStyle { id: &id, fill: Some(&fill), stroke: None };
+        let style = SvgStyle { id: &id, fill: Some(&fill), ..SvgStyle::default() };
         svg.path(&style, loops.iter().map(|cycle| (run(complex, cycle), true)));
     }
 }

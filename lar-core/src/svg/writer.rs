@@ -15,6 +15,8 @@ pub struct SvgStyle<'a> {
     pub fill: Option<&'a str>,
     /// Colour and width of its lines.
     pub stroke: Option<(&'a str, f64)>,
+    /// Opacity of the whole, 1 when not given.
+    pub opacity: Option<f64>,
 }
 
 /// Writes paths, one over the other, as an SVG document. The y axis points up here and down there; coordinates are
@@ -64,6 +66,11 @@ impl SvgWriter {
             self.attribute("stroke", color);
             self.push(" stroke-width=\"");
             self.number(width);
+            self.push("\"");
+        }
+        if let Some(opacity) = style.opacity {
+            self.push(" opacity=\"");
+            self.number(opacity);
             self.push("\"");
         }
         self.push(" d=\"");
@@ -142,7 +149,7 @@ mod tests {
         let mut svg = SvgWriter::new([-0.5, -1.], [1.5, 0.]);
         let edge = ("#102030", 0.25);
         let square: Vec<[f64; 2]> = vec![[0., 0.], [1., 0.], [1., -1.], [0., -1.]];
-        svg.path(&SvgStyle { id: "a<\"&\n", fill: Some("red"), stroke: None }, [(square, true)]);
+        svg.path(&SvgStyle { id: "a<\"&\n", fill: Some("red"), ..SvgStyle::default() }, [(square, true)]);
         svg.path(
             &SvgStyle { stroke: Some(edge), ..SvgStyle::default() },
             [(&[[0., 1e-9]][..], true), (&[], true)],

@@ -26,15 +26,24 @@ pub(crate) fn factor(text: &str) -> Option<f32> {
     text.trim().parse().ok().filter(|factor: &f32| factor.abs() <= EXPLODE_LIMIT)
 }
 
-/// A picture of the inputs' arrangement: PNG or, as a drawing of its lines without the hidden ones, SVG. Inputs are
+/// A picture of the inputs' arrangement: PNG or, as a drawing without hidden lines, SVG. Inputs are
 /// surfaces in space or drawings in the plane (.svg, .seg).
 #[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  \
+    lar render a.obj b.obj -o cells.png --explode 1.8 --numbers cells\n  \
+    lar render a.obj b.obj -o section.png --clip x=0.5 --color class --alpha 1 --outline solids\n  \
+    lar render a.obj b.obj -o figure.svg --explode 1.5 --color size --background white\n  \
+    lar render plan.svg -o plan.png --view top --ortho --numbers faces --alpha 1\n  \
+    lar render a.obj b.obj -o same.png --eye 4,-6,3 --target 0,0,0.5   (the camera that lar view copies)")]
 pub(crate) struct Render {
     #[command(flatten)]
     inputs: Inputs,
     /// The picture, SVG or PNG by the extension.
     #[arg(short, long, value_name = "OUT.png|.svg")]
     output: PathBuf,
+    /// In SVG, draws lines only: faces hide what is behind them but are not filled.
+    #[arg(long)]
+    lines: bool,
     /// Width and height in pixels.
     #[arg(long, value_name = "WxH", default_value = "1280x800")]
     size: Size,

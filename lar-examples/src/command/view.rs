@@ -8,6 +8,10 @@ use crate::CommandError;
 
 /// A window on the inputs' arrangement.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "F1 in the window lists mouse and keys; files can be dropped on it.\n\nExamples:\n  \
+    lar view a.obj b.obj\n  \
+    lar view a.obj b.obj --explode 1.5 --color solid --numbers cells\n  \
+    lar view Box=a.stl Ball=b.stl --eye 4,-6,3 --target 0,0,0")]
 pub(crate) struct Window {
     #[command(flatten)]
     inputs: Inputs,

@@ -191,6 +191,7 @@ impl Picture {
                 id: &path.id,
                 fill: fill.as_deref(),
                 stroke: stroke.as_ref().map(|(color, width)| (color.as_str(), *width)),
+                opacity: None,
             };
             svg.path(&style, path.runs.iter().map(|(points, closed)| (points, *closed)));
         }

@@ -1,10 +1,12 @@
 //! Triangles on the screen in a tree of boxes, asked which of them hide a segment, and where.
 
 use super::SLACK;
-use super::project::Seen;
+use super::project::{Seen, clip_polygon};
 
 /// Triangles of less area are seen edge-on and hide nothing, in square pixels.
 const SMALLEST: f64 = 1e-9;
+/// Two triangles overlap when they share more than this area, in square pixels.
+const SHARED: f64 = 1e-3;
 /// Triangles hide this far beyond their sides, in pixels, so that lines exactly behind the side between two triangles do
 /// not show through.
 const BORDER: f64 = 1e-6;
@@ -18,11 +20,13 @@ pub(super) struct Triangle {
     corners: [Seen; 3],
     /// q = plane · (x, y, 1).
     plane: [f64; 3],
+    /// What part of the ink behind it is seen.
+    through: f64,
 }
 
 impl Triangle {
     /// `None` when it is seen edge-on.
-    pub(super) fn new([a, b, c]: [Seen; 3]) -> Option<Self> {
+    pub(super) fn new([a, b, c]: [Seen; 3], through: f64) -> Option<Self> {
         let ([bx, by, bq], [cx, cy, cq]) = (difference(b, a), difference(c, a));
         let area = bx * cy - by * cx;
         if area.is_nan() || area.abs() < SMALLEST {
@@ -31,7 +35,37 @@ impl Triangle {
         let slope = [(bq * cy - cq * by) / area, (cq * bx - bq * cx) / area];
         let plane = [slope[0], slope[1], a.q - slope[0] * a.x - slope[1] * a.y];
         let corners = if 0.0 < area { [a, b, c] } else { [a, c, b] };
-        Some(Self { corners, plane })
+        Some(Self { corners, plane, through })
+    }
+
+    /// Counter-clockwise.
+    pub(super) fn corners(&self) -> [[f64; 2]; 3] {
+        self.corners.map(Seen::screen)
+    }
+
+    /// The nearness of its plane at a place on the screen.
+    pub(super) fn nearness(&self, [x, y]: [f64; 2]) -> f64 {
+        self.plane[0] * x + self.plane[1] * y + self.plane[2]
+    }
+
+    /// A place on the screen inside of both triangles; `None` where they share no area.
+    pub(super) fn place_in_both(&self, other: &Self) -> Option<[f64; 2]> {
+        let mut shared: Vec<[f64; 3]> = self.corners.iter().map(|s| [s.x, s.y, 0.0]).collect();
+        for i in 0..3 {
+            let (p, q) = (other.corners[i], other.corners[(i + 1) % 3]);
+            shared = clip_polygon(&shared, |s| (q.y - p.y) * (s[0] - p.x) - (q.x - p.x) * (s[1] - p.y));
+            if shared.len() < 3 {
+                return None;
+            }
+        }
+        let n = shared.len();
+        let twice = |i: usize| {
+            let (s, t) = (shared[i], shared[(i + 1) % n]);
+            s[0] * t[1] - s[1] * t[0]
+        };
+        let area = 0.5 * (0..n).map(twice).sum::<f64>();
+        let middle = |k: usize| shared.iter().map(|s| s[k]).sum::<f64>() / n as f64;
+        (SHARED < area).then(|| [middle(0), middle(1)])
     }
 
     /// Where the segment from `a` to `b` is behind the triangle, as an interval of 0 to 1; for a point (`a` = `b`) the
@@ -155,8 +189,8 @@ impl Tree {
         index
     }
 
-    /// The intervals of the segment from `a` to `b` that triangles hide, in no order.
-    pub(super) fn hidden(&self, a: Seen, b: Seen) -> Vec<[f64; 2]> {
+    /// The intervals of the segment from `a` to `b` that triangles lie before, in no order, and what each lets through.
+    pub(super) fn before(&self, a: Seen, b: Seen) -> Vec<([f64; 2], f64)> {
         let mut found = Vec::new();
         let mut stack: Vec<usize> = if self.nodes.is_empty() { Vec::new() } else { vec![0] };
         while let Some(index) = stack.pop() {
@@ -166,7 +200,7 @@ impl Tree {
             }
             if node.n <= LEAF {
                 let leaf = &self.triangles[node.first..node.first + node.n];
-                found.extend(leaf.iter().filter_map(|t| t.hides(a, b)));
+                found.extend(leaf.iter().filter_map(|t| Some((t.hides(a, b)?, t.through))));
             } else {
                 stack.extend([index + 1, node.second_child]);
             }
@@ -186,7 +220,7 @@ mod tests {
 
     #[track_caller]
     fn check(a: Seen, b: Seen, expected: Option<[f64; 2]>) {
-        let triangle = Triangle::new([seen(0., 0., 1.), seen(4., 0., 1.), seen(0., 4., 1.)]).unwrap();
+        let triangle = Triangle::new([seen(0., 0., 1.), seen(4., 0., 1.), seen(0., 4., 1.)], 0.0).unwrap();
         let found = triangle.hides(a, b);
         let near = |[a, b]: [f64; 2], [c, d]: [f64; 2]| (a - c).abs() < 1e-5 && (b - d).abs() < 1e-5;
         assert!(found.zip(expected).map_or(found == expected, |(f, e)| near(f, e)), "{found:?}");
@@ -200,7 +234,7 @@ mod tests {
         check(seen(1., 1., 2.), seen(2., 1., 0.), Some([0.5, 1.0]));
         check(seen(5., 5., 0.), seen(6., 1., 0.), None);
         check(seen(1., 1., 0.), seen(1., 1., 0.), Some([0.0, 1.0]));
-        assert!(Triangle::new([seen(0., 0., 1.), seen(1., 1., 2.), seen(2., 2., 0.)]).is_none());
+        assert!(Triangle::new([seen(0., 0., 1.), seen(1., 1., 2.), seen(2., 2., 0.)], 0.0).is_none());
     }
 
     proptest! {
@@ -211,14 +245,14 @@ mod tests {
             ends in prop::array::uniform2(prop::array::uniform3(-9.0..9.0_f64)),
         ) {
             let point = |[x, y, q]: [f64; 3]| seen(x, y, q);
-            let triangles: Vec<Triangle> = corners.iter().filter_map(|c| Triangle::new(c.map(point))).collect();
+            let triangles: Vec<Triangle> = corners.iter().filter_map(|c| Triangle::new(c.map(point), 0.5)).collect();
             let [a, b] = ends.map(point);
-            let order = |mut found: Vec<[f64; 2]>| {
-                found.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+            let order = |mut found: Vec<([f64; 2], f64)>| {
+                found.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
                 found
             };
-            let one_by_one = triangles.iter().filter_map(|t| t.hides(a, b)).collect();
-            prop_assert_eq!(order(Tree::new(triangles.clone()).hidden(a, b)), order(one_by_one));
+            let one_by_one = triangles.iter().filter_map(|t| Some((t.hides(a, b)?, 0.5))).collect();
+            prop_assert_eq!(order(Tree::new(triangles.clone()).before(a, b)), order(one_by_one));
         }
     }
 }

@@ -10,10 +10,10 @@
 //! triangle are stored in order of position: triangles that two cells share then get bit-identical depths.
 
 use super::cull::Ball;
+use super::elements::{Dot, ELEMENT_BYTES, KINDS, LINES, Line, MESH, POINTS, STROKES, Stroke, Vertex};
 use super::frame::Placement;
 use crate::scene::{Drawable, Extents, Shape, point3};
 use crate::{Label, Scene, TextStyle, text};
-use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 use lar_core::TriangleMesh;
 use std::ops::Range;
@@ -24,63 +24,6 @@ const EDGE_WIDTH: f32 = 0.12;
 const UNLIMITED: f32 = 1e6;
 /// Radii below this are taken for points; the scene then keeps world units.
 const SMALLEST_RADIUS: f64 = 1e-90;
-
-/// Vertex of a triangle; the normal is in units of 1/32767.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub(crate) struct Vertex {
-    pub(crate) position: [f32; 3],
-    pub(crate) part: u32,
-    pub(crate) normal: [i16; 4],
-}
-
-/// A segment.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub(crate) struct Line {
-    pub(crate) start: [f32; 3],
-    pub(crate) part: u32,
-    pub(crate) end: [f32; 3],
-    pub(crate) width: f32,
-    /// The most that the width may be, as a length in the scene.
-    pub(crate) most: f32,
-}
-
-/// A dot.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub(crate) struct Dot {
-    pub(crate) center: [f32; 3],
-    pub(crate) part: u32,
-    pub(crate) size: f32,
-}
-
-/// A stroke of a label.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub(crate) struct Stroke {
-    /// Where the label is.
-    pub(crate) anchor: [f32; 3],
-    pub(crate) part: u32,
-    /// Both ends relative to it, x to the right and y up, in units of 1/16 pixel.
-    pub(crate) ends: [i16; 4],
-    /// Pixels; negative for what is drawn over everything.
-    pub(crate) width: f32,
-}
-
-/// Kinds of geometry, as indices of arrays.
-pub(crate) const MESH: usize = 0;
-pub(crate) const LINES: usize = 1;
-pub(crate) const POINTS: usize = 2;
-pub(crate) const STROKES: usize = 3;
-/// Number of kinds.
-pub(crate) const KINDS: usize = 4;
-/// Vertices of one instance of each kind; triangles are drawn by their vertices. A stroke has a rim under its core.
-pub(crate) const VERTICES: [u32; KINDS] = [3, 4, 4, 12];
-
-/// Bytes of one element of each kind; a triangle is an element.
-pub(crate) const ELEMENT_BYTES: [usize; KINDS] =
-    [3 * size_of::<Vertex>(), size_of::<Line>(), size_of::<Dot>(), size_of::<Stroke>()];
 
 /// Most elements of a part: of a large drawable only the parts in the picture are drawn.
 const PART: usize = 1 << 15;
@@ -127,9 +70,18 @@ impl Batch {
         let extents = Extents::new(scene);
         let radius = extents.bounds(&[1.0; 3].into()).map_or(0.0, |b| b.radius());
         let unit = if radius < SMALLEST_RADIUS { 1.0 } else { radius };
+        Self::placed(scene, Placement { center: extents.center, unit }, extents, buffer_bytes)
+    }
+
+    /// The arrays of a scene that is drawn together with another, which is placed like this.
+    pub(crate) fn beside(scene: &Scene, placement: Placement, buffer_bytes: u64) -> Self {
+        Self::placed(scene, placement, Extents::about(scene, Some(placement.center)), buffer_bytes)
+    }
+
+    fn placed(scene: &Scene, placement: Placement, extents: Extents, buffer_bytes: u64) -> Self {
         let capacity = |bytes: usize| (buffer_bytes / bytes as u64).clamp(1, u64::from(u32::MAX / 3)) as u32;
         let mut batch = Self {
-            placement: Placement { center: extents.center, unit },
+            placement,
             extents,
             spans: Vec::new(),
             balls: Vec::new(),

@@ -8,11 +8,14 @@ const FARTHEST: f64 = 1e20;
 /// A plane that cuts nothing away: all heights over it are −1.
 const NO_CUT: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
 
+/// Level of groups that stands for all of them as one; `WHOLE` in `common.wgsl`.
+pub(crate) const WHOLE: u32 = u32::MAX;
+
 fn clamped(x: f64) -> f32 {
     x.clamp(-FARTHEST, FARTHEST) as f32
 }
 
-/// Mirror of `Frame` in `common.wgsl`, 272 bytes.
+/// Mirror of `Frame` in `common.wgsl`, 304 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub(crate) struct Frame {
@@ -33,6 +36,14 @@ pub(crate) struct Frame {
     pub(crate) band: u32,
     pub(crate) node_capacity: u32,
     pub(crate) cut_groups: u32,
+    /// Number of the scene's first part among all scenes of the frame.
+    pub(crate) first_part: u32,
+    /// Level of the groups that are outlined; [`WHOLE`] for everything as one.
+    pub(crate) outlined_level: u32,
+    /// Half the width of outlines, in samples.
+    pub(crate) outline_reach: f32,
+    pub(crate) padding: u32,
+    pub(crate) outline_color: [f32; 4],
 }
 
 /// Size of a picture and how finely it is sampled.
@@ -94,6 +105,9 @@ impl Frame {
         };
         let perspective = camera.projection == Projection::Perspective;
         let sample_size = camera.world_per_pixel(height) / if perspective { camera.distance } else { 1.0 };
+        let samples_per_pixel = raster.samples as f32 * raster.scale;
+        let outline = view.outline.unwrap_or_default();
+        let [r, g, b] = outline.color;
         Self {
             view_from_scene: camera.view_from_world().as_mat4().to_cols_array_2d(),
             clip_from_view: camera.clip_from_view(width / height, near, far).as_mat4().to_cols_array_2d(),
@@ -102,7 +116,7 @@ impl Frame {
             opacity: view.opacity,
             cut: view.clip.map_or(NO_CUT, |c| c.in_scene(placement.center, placement.unit).map(clamped)),
             viewport: [width as f32, height as f32],
-            samples_per_pixel: raster.samples as f32 * raster.scale,
+            samples_per_pixel,
             sample_size: sample_size as f32,
             near: near as f32,
             perspective: u32::from(perspective),
@@ -112,6 +126,11 @@ impl Frame {
             band: 0,
             node_capacity: 0,
             cut_groups: u32::from(view.clip.is_some_and(|c| c.whole_cells)),
+            first_part: 0,
+            outlined_level: outline.of.level().map_or(WHOLE, |level| level as u32),
+            outline_reach: 0.5 * outline.width * samples_per_pixel,
+            padding: 0,
+            outline_color: [r, g, b, 1.0],
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::frame::Placement;
 use crate::scene::{Drawable, Shape};
-use crate::{Appearance, LEVELS, Rgb, Scene};
+use crate::{Appearance, GroupId, LEVELS, Rgb, Scene};
 use bytemuck::{Pod, Zeroable};
 
 /// Flag of a part whose mesh is lit; `LIT` in `common.wgsl`.
@@ -30,7 +30,8 @@ pub(crate) struct Part {
     padding: [u32; 2],
 }
 
-/// An entry of the table of groups, four texels: centroids relative to that of the group around, outermost first.
+/// An entry of the table of groups, four texels: centroids relative to that of the group around, outermost first, each with
+/// the bits of the number of the group at that level.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub(crate) struct GroupOffsets(pub(crate) [[f32; 4]; LEVELS]);
@@ -72,17 +73,22 @@ fn color(appearance: &Appearance) -> [f32; 4] {
 
 /// The table of a scene's groups; one entry at least.
 pub(crate) fn group_offsets(scene: &Scene, placement: &Placement) -> Vec<GroupOffsets> {
-    let offsets = |chain: Vec<[f64; 3]>| {
+    let offsets = |chain: Vec<GroupId>| {
         let mut offsets = [[0.0; 4]; LEVELS];
         let mut from = placement.center;
-        for (offset, centroid) in offsets.iter_mut().zip(chain) {
+        for (offset, group) in offsets.iter_mut().zip(&chain) {
+            let centroid = scene.groups()[group.0 as usize].centroid;
             let relative = std::array::from_fn(|k| placement.center[k] + (centroid[k] - from[k]));
             let [x, y, z] = placement.far_from_world(relative);
             (*offset, from) = ([x, y, z, 0.0], centroid);
         }
+        let own = chain.last().map_or(0, |g| g.0);
+        let around = (0..LEVELS).map(|level| chain.get(level).map_or(own, |g| g.0));
+        offsets.iter_mut().zip(around).for_each(|(offset, group)| offset[3] = f32::from_bits(group));
         GroupOffsets(offsets)
     };
-    let mut table: Vec<_> = scene.centroid_chains().into_iter().map(offsets).collect();
+    let mut table: Vec<_> =
+        (0..scene.groups().len()).map(|g| offsets(scene.around(GroupId(g as u32)))).collect();
     if table.is_empty() {
         table.push(GroupOffsets([[0.0; 4]; LEVELS]));
     }
@@ -114,7 +120,10 @@ mod tests {
         scene.push_subgroup(outer, [3.0, 4.0, 0.0]).unwrap();
         let placement = Placement { center: [1.0, 0.0, 0.0], unit: 2.0 };
         let table = group_offsets(&scene, &placement);
-        assert_eq!(table[0].0[0], [1.0, 0.0, 0.0, 0.0]);
-        assert_eq!(table[1].0, [[1.0, 0.0, 0.0, 0.0], [0.0, 2.0, 0.0, 0.0], [0.0; 4], [0.0; 4]]);
+        let places = |g: usize| table[g].0.map(|[x, y, z, _]| [x, y, z]);
+        let groups = |g: usize| table[g].0.map(|[.., group]| group.to_bits());
+        assert_eq!(places(0)[0], [1.0, 0.0, 0.0]);
+        assert_eq!(places(1), [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0; 3], [0.0; 3]]);
+        assert_eq!((groups(0), groups(1)), ([0; 4], [0, 1, 1, 1]));
     }
 }

@@ -3,14 +3,14 @@
 //! Each kind of geometry has three pipelines: *opaque*, with a depth test, *layer*, which stores fragments in the lists of
 //! the A-buffer or sums them, and *id*, which tells what is seen where. Two more steps work on the whole screen.
 
-use super::batch::{Dot, KINDS, Line, Stroke, Vertex};
 use super::context::Transparency;
-use super::frame::Frame;
+use super::elements::{Dot, KINDS, Line, Stroke, Vertex};
+use super::layouts::{
+    SAMPLE_COLOR, bind_group_layout, frame_layout, layers_layout, pipeline_layout, sums_layout, texture_entry,
+};
 use super::scene::Way;
 use super::shaders::{self, Sources};
-use wgpu::{
-    BindGroupLayout, Device, PipelineLayout, RenderPipeline, ShaderStages, TextureFormat, VertexAttribute,
-};
+use wgpu::{BindGroupLayout, Device, PipelineLayout, RenderPipeline, TextureFormat, VertexAttribute};
 
 /// Colour of samples and of the finished picture.
 pub(crate) const COLOR: TextureFormat = TextureFormat::Rgba8Unorm;
@@ -19,6 +19,8 @@ pub(crate) const COLOR: TextureFormat = TextureFormat::Rgba8Unorm;
 pub(crate) const OPAQUE_DEPTH: TextureFormat = TextureFormat::R32Uint;
 /// What is seen: part plus one, and the index of the element in its buffer.
 pub(crate) const ID: TextureFormat = TextureFormat::Rg32Uint;
+/// Which solid is seen, for outlines.
+pub(crate) const SOLID: TextureFormat = TextureFormat::R32Uint;
 /// Sums and weights of layers.
 pub(crate) const SUM: TextureFormat = TextureFormat::Rgba16Float;
 /// Depth buffer of the opaque pass.
@@ -43,6 +45,8 @@ pub(crate) struct Ways {
     opaque: RenderPipeline,
     layer: RenderPipeline,
     id: RenderPipeline,
+    /// Of triangles only.
+    solid: Option<RenderPipeline>,
 }
 
 impl Ways {
@@ -51,6 +55,7 @@ impl Ways {
             Way::Opaque => &self.opaque,
             Way::Layer => &self.layer,
             Way::Id => &self.id,
+            Way::Solid => self.solid.as_ref().unwrap_or(&self.id),
         }
     }
 }
@@ -64,6 +69,8 @@ pub(crate) struct Pipelines {
     pub(crate) kinds: [Ways; KINDS],
     pub(crate) resolve: RenderPipeline,
     pub(crate) reduce: RenderPipeline,
+    pub(crate) outline_layout: BindGroupLayout,
+    pub(crate) outline: RenderPipeline,
 }
 
 impl Pipelines {
@@ -74,6 +81,9 @@ impl Pipelines {
             Transparency::Weighted => (sums_layout(device), (shaders::COMPOSE, "compose")),
         };
         let samples_layout = bind_group_layout(device, "samples", &[texture_entry(0, SAMPLE_COLOR)]);
+        let solids = texture_entry(0, wgpu::TextureSampleType::Uint);
+        let outline_layout = bind_group_layout(device, "solids", &[solids]);
+        let outline = pipeline_layout(device, &[&frame_layout, &outline_layout]);
         let opaque = pipeline_layout(device, &[&frame_layout]);
         let layer = pipeline_layout(device, &[&frame_layout, &layers_layout]);
         let reduce = pipeline_layout(device, &[&frame_layout, &samples_layout]);
@@ -84,6 +94,8 @@ impl Pipelines {
             kinds: [maker.mesh(), maker.lines(), maker.points(), maker.strokes()],
             resolve: whole_screen(device, resolve.0, resolve.1, &layer, Some(OVER)),
             reduce: whole_screen(device, shaders::REDUCE, "reduce", &reduce, None),
+            outline: whole_screen(device, shaders::OUTLINE, "outline", &outline, None),
+            outline_layout,
             frame_layout,
             layers_layout,
             samples_layout,
@@ -108,71 +120,6 @@ const SUMMED: wgpu::BlendState = wgpu::BlendState {
         operation: wgpu::BlendOperation::Add,
     },
 };
-
-fn frame_layout(device: &Device) -> BindGroupLayout {
-    let frame = wgpu::BindGroupLayoutEntry {
-        binding: 0,
-        visibility: ShaderStages::VERTEX_FRAGMENT,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Uniform,
-            has_dynamic_offset: true,
-            min_binding_size: wgpu::BufferSize::new(size_of::<Frame>() as u64),
-        },
-        count: None,
-    };
-    let table = |binding| wgpu::BindGroupLayoutEntry {
-        visibility: ShaderStages::VERTEX,
-        ..texture_entry(binding, wgpu::TextureSampleType::Uint)
-    };
-    bind_group_layout(device, "frame", &[frame, table(1), table(2)])
-}
-
-fn layers_layout(device: &Device) -> BindGroupLayout {
-    bind_group_layout(
-        device,
-        "layers",
-        &[writable(0), writable(1), writable(2), texture_entry(3, wgpu::TextureSampleType::Uint)],
-    )
-}
-
-fn sums_layout(device: &Device) -> BindGroupLayout {
-    bind_group_layout(device, "sums", &[texture_entry(0, SAMPLE_COLOR), texture_entry(1, SAMPLE_COLOR)])
-}
-
-fn writable(binding: u32) -> wgpu::BindGroupLayoutEntry {
-    let ty = wgpu::BufferBindingType::Storage { read_only: false };
-    let ty = wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
-    wgpu::BindGroupLayoutEntry { binding, visibility: ShaderStages::FRAGMENT, ty, count: None }
-}
-
-/// What the shader that averages samples reads.
-const SAMPLE_COLOR: wgpu::TextureSampleType = wgpu::TextureSampleType::Float { filterable: false };
-
-fn texture_entry(binding: u32, sample_type: wgpu::TextureSampleType) -> wgpu::BindGroupLayoutEntry {
-    let ty = wgpu::BindingType::Texture {
-        sample_type,
-        view_dimension: wgpu::TextureViewDimension::D2,
-        multisampled: false,
-    };
-    wgpu::BindGroupLayoutEntry { binding, visibility: ShaderStages::FRAGMENT, ty, count: None }
-}
-
-fn bind_group_layout(
-    device: &Device,
-    label: &str,
-    entries: &[wgpu::BindGroupLayoutEntry],
-) -> BindGroupLayout {
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries })
-}
-
-fn pipeline_layout(device: &Device, groups: &[&BindGroupLayout]) -> PipelineLayout {
-    let groups: Vec<_> = groups.iter().copied().map(Some).collect();
-    device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: None,
-        bind_group_layouts: &groups,
-        immediate_size: 0,
-    })
-}
 
 fn shader(device: &Device, source: &'static str) -> wgpu::ShaderModule {
     let source = wgpu::ShaderSource::Wgsl(source.into());
@@ -307,11 +254,14 @@ impl Maker<'_> {
             }
         };
         let id = [target(ID, wgpu::ColorWrites::ALL)];
+        let solids = [target(SOLID, wgpu::ColorWrites::ALL)];
         let solid = shader(self.device, kind.sources.solid);
         let layered = shader(self.device, source);
         Ways {
             opaque: self.pipeline(kind, &solid, "opaque", self.opaque, &opaque, Some(depth.clone())),
             layer: self.pipeline(kind, &layered, "layer", self.layer, &layer, layer_depth),
+            solid: (kind.name == "mesh")
+                .then(|| self.pipeline(kind, &solid, "solid", self.opaque, &solids, Some(depth.clone()))),
             id: self.pipeline(kind, &solid, "id", self.opaque, &id, Some(depth)),
         }
     }

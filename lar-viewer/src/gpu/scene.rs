@@ -1,8 +1,9 @@
 //! A scene on the graphics card, and which of it each pass draws.
 
-use super::batch::{self, Batch, KINDS, Span};
+use super::batch::{Batch, Span};
 use super::context::Context;
 use super::cull::{Ball, Frustum};
+use super::elements::{self, KINDS};
 use super::frame::Placement;
 use super::parts::{GroupOffsets, NO_GROUP, Part, group_offsets};
 use super::table::Table;
@@ -22,6 +23,8 @@ pub(crate) enum Way {
     Layer,
     /// Opaque or not, for picking.
     Id,
+    /// Triangles, opaque or not, as the solids that are outlined.
+    Solid,
 }
 
 /// Elements of one kind in one buffer.
@@ -49,6 +52,16 @@ pub(crate) struct SceneBuffers {
 impl SceneBuffers {
     pub(crate) fn new(context: &Context, scene: &Scene, buffer_bytes: u64) -> Result<Self, ViewerError> {
         let batch = Batch::new(scene, buffer_bytes.min(context.limits.max_buffer_size));
+        Self::uploaded(context, scene, batch)
+    }
+
+    /// A scene that is drawn together with this one: their groups move alike.
+    #[cfg(feature = "window")]
+    pub(crate) fn beside(&self, context: &Context, scene: &Scene) -> Result<Self, ViewerError> {
+        Self::uploaded(context, scene, Batch::beside(scene, self.placement, context.limits.max_buffer_size))
+    }
+
+    fn uploaded(context: &Context, scene: &Scene, batch: Batch) -> Result<Self, ViewerError> {
         let capacity = batch.capacity;
         let looks = looks(&batch.spans, scene.drawables(), |i| scene.drawables()[i].appearance);
         let offsets = group_offsets(scene, &batch.placement);
@@ -56,10 +69,10 @@ impl SceneBuffers {
             parts: Table::new(context, "drawables", &looks)?,
             groups: Table::new(context, "groups", &offsets)?,
             chunks: [
-                upload(context, "triangles", &batch.triangles, capacity[batch::MESH])?,
-                upload(context, "segments", &batch.lines, capacity[batch::LINES])?,
-                upload(context, "points", &batch.dots, capacity[batch::POINTS])?,
-                upload(context, "strokes of labels", &batch.strokes, capacity[batch::STROKES])?,
+                upload(context, "triangles", &batch.triangles, capacity[elements::MESH])?,
+                upload(context, "segments", &batch.lines, capacity[elements::LINES])?,
+                upload(context, "points", &batch.dots, capacity[elements::POINTS])?,
+                upload(context, "strokes of labels", &batch.strokes, capacity[elements::STROKES])?,
             ],
             capacity,
             spans: batch.spans,
@@ -92,22 +105,27 @@ impl SceneBuffers {
     /// What a pass draws of what may be seen, when the view multiplies the opacity of meshes by `opacity`. O(parts).
     pub(crate) fn runs(&self, way: Way, opacity: f32, frustum: &Frustum) -> Vec<Run> {
         let is_drawn = |span: &Span, part: &Part| {
-            let dimming = if span.kind == batch::MESH { opacity } else { 1.0 };
+            let dimming = if span.kind == elements::MESH { opacity } else { 1.0 };
             let is_layer = part.is_layer(dimming);
             match way {
                 Way::Opaque => !is_layer && 0.0 < part.color[3] * dimming,
                 Way::Layer => is_layer,
-                Way::Id => 0.0 < part.color[3] * dimming,
+                Way::Id | Way::Solid => 0.0 < part.color[3] * dimming,
             }
         };
         let in_picture = |span: &Span, part: &Part, ball: &Ball| {
             let group = self.offsets.get(part.group as usize).filter(|_| part.group != NO_GROUP);
             // Labels reach as far from their anchors as their texts are long.
-            span.kind == batch::STROKES || frustum.sees(ball, group)
+            span.kind == elements::STROKES || frustum.sees(ball, group)
         };
         let parts = self.spans.iter().zip(&self.looks).zip(&self.balls);
         let drawn = parts.filter(|((s, p), b)| is_drawn(s, p) && in_picture(s, p, b)).map(|((s, _), _)| s);
         runs(drawn, self.capacity)
+    }
+
+    /// Number of parts.
+    pub(crate) fn n_parts(&self) -> u32 {
+        self.spans.len() as u32
     }
 
     /// The kind of a part's elements.

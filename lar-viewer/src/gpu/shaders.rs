@@ -47,13 +47,16 @@ pub(crate) const LABELS: Sources = Sources {
 };
 
 /// Blending of the stored layers.
-pub(crate) const RESOLVE: &str = module!("common", "layers", "resolve");
+pub(crate) const RESOLVE: &str = module!("common", "screen", "layers", "resolve");
 
 /// Blending of the sums of layers.
-pub(crate) const COMPOSE: &str = module!("common", "compose");
+pub(crate) const COMPOSE: &str = module!("common", "screen", "compose");
 
 /// Averaging of samples.
-pub(crate) const REDUCE: &str = module!("common", "reduce");
+pub(crate) const REDUCE: &str = module!("common", "screen", "reduce");
+
+/// Outlines of what the solid pass found.
+pub(crate) const OUTLINE: &str = module!("common", "screen", "outline");
 
 #[cfg(test)]
 mod tests {
@@ -77,8 +80,13 @@ mod tests {
     #[test]
     fn every_shader_is_valid_without_optional_capabilities() {
         for (sources, name) in [(MESH, "mesh"), (LINES, "line"), (POINTS, "point"), (LABELS, "label")] {
-            let vertex = ["opaque", "layer", "id"].map(|way| format!("{name}_{way}_vertex"));
-            let solid = [format!("{name}_opaque"), format!("{name}_id")];
+            let mut vertex: Vec<_> =
+                ["opaque", "layer", "id"].map(|way| format!("{name}_{way}_vertex")).into();
+            let mut solid = vec![format!("{name}_opaque"), format!("{name}_id")];
+            if name == "mesh" {
+                vertex.push("mesh_solid_vertex".to_owned());
+                solid.insert(1, "mesh_solid".to_owned());
+            }
             check_entry_points(sources.solid, &[&vertex[..], &solid].concat());
             let layer = [&vertex[..], &solid, &[format!("{name}_layer")]].concat();
             check_entry_points(sources.layer, &layer);
@@ -88,6 +96,7 @@ mod tests {
         check_entry_points(COMPOSE, &["whole_screen", "compose"]);
         check_entry_points(RESOLVE, &["whole_screen", "resolve"]);
         check_entry_points(REDUCE, &["whole_screen", "reduce"]);
+        check_entry_points(OUTLINE, &["whole_screen", "outline"]);
     }
 
     /// Byte offsets of the members of a WGSL struct, and its size.
@@ -129,7 +138,12 @@ mod tests {
                 band_row,
                 band,
                 node_capacity,
-                cut_groups
+                cut_groups,
+                first_part,
+                outlined_level,
+                outline_reach,
+                padding,
+                outline_color
             ]
         );
         assert_eq!(layout(RESOLVE, "Node").1, crate::gpu::layers::NODE_BYTES);
@@ -151,6 +165,7 @@ mod tests {
         assert_eq!(constant(MESH.solid, "HIGHLIGHTED"), parts::HIGHLIGHTED);
         assert_eq!(constant(MESH.solid, "CLIPPED"), parts::CLIPPED);
         assert_eq!(constant(MESH.solid, "NO_GROUP"), parts::NO_GROUP);
+        assert_eq!(constant(MESH.solid, "WHOLE"), crate::gpu::frame::WHOLE);
         assert_eq!(constant(MESH.solid, "TABLE_WIDTH"), table::WIDTH);
     }
 }

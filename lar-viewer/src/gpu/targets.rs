@@ -2,7 +2,7 @@
 
 use super::context::{Context, Transparency};
 use super::frame::Raster;
-use super::pipelines::{COLOR, DEPTH, OPAQUE_DEPTH, Pipelines, SUM};
+use super::pipelines::{COLOR, DEPTH, OPAQUE_DEPTH, Pipelines, SOLID, SUM};
 use wgpu::{Texture, TextureUsages, TextureView};
 
 /// Textures of one size: three of samples and the finished picture.
@@ -16,6 +16,30 @@ pub(crate) struct Targets {
     pub(crate) samples: wgpu::BindGroup,
     /// Where layers are summed rather than sorted.
     pub(crate) sums: Option<Sums>,
+    /// Where outlines are drawn.
+    pub(crate) outlines: Option<Outlines>,
+}
+
+/// Which solid is seen at each sample, 0 where none is, and the group that reads it.
+pub(crate) struct Outlines {
+    pub(crate) solids: TextureView,
+    pub(crate) group: wgpu::BindGroup,
+}
+
+impl Outlines {
+    fn new(context: &Context, pipelines: &Pipelines, size: [u32; 2]) -> Self {
+        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
+        let solids = view(&texture(context, size, SOLID, usage));
+        let group = context.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("solids"),
+            layout: &pipelines.outline_layout,
+            entries: &[wgpu::BindGroupEntry {
+                binding: 0,
+                resource: wgpu::BindingResource::TextureView(&solids),
+            }],
+        });
+        Self { solids, group }
+    }
 }
 
 /// Textures for sums and weights of layers, and the group that reads them.
@@ -42,7 +66,7 @@ impl Sums {
 }
 
 impl Targets {
-    pub(crate) fn new(context: &Context, pipelines: &Pipelines, raster: Raster) -> Self {
+    pub(crate) fn new(context: &Context, pipelines: &Pipelines, raster: Raster, outlined: bool) -> Self {
         let drawn = TextureUsages::RENDER_ATTACHMENT;
         let size = raster.size();
         let color = view(&texture(context, size, COLOR, drawn | TextureUsages::TEXTURE_BINDING));
@@ -62,7 +86,8 @@ impl Targets {
         let picture_view = view(&picture);
         let weighted = context.transparency == Transparency::Weighted;
         let sums = weighted.then(|| Sums::new(context, pipelines, size));
-        Self { raster, color, opaque_depth, depth, picture, picture_view, samples, sums }
+        let outlines = outlined.then(|| Outlines::new(context, pipelines, size));
+        Self { raster, color, opaque_depth, depth, picture, picture_view, samples, sums, outlines }
     }
 }
 

@@ -17,13 +17,19 @@ pub(crate) struct Extents {
 
 impl Extents {
     pub(crate) fn new(scene: &Scene) -> Self {
+        Self::about(scene, None)
+    }
+
+    /// With this centre instead of the scene's own.
+    pub(crate) fn about(scene: &Scene, center: Option<[f64; 3]>) -> Self {
         let placed = |d: &Drawable| Some((d.bounds()?, d.group.map(|g| g.0 as usize)));
         let boxes: Vec<_> = scene.drawables().iter().map(placed).collect();
         let around = |grouped: bool| {
             let chosen = boxes.iter().flatten().filter(|(_, g)| g.is_some() || !grouped);
             chosen.map(|(b, _)| *b).reduce(Bounds::union)
         };
-        let center = around(true).or_else(|| around(false)).map_or([0.0; 3], |b| b.center());
+        let own = || around(true).or_else(|| around(false)).map_or([0.0; 3], |b| b.center());
+        let center = center.unwrap_or_else(own);
         Self { center, boxes, chains: scene.centroid_chains() }
     }
 

@@ -126,6 +126,11 @@ impl Scene {
         Ok(())
     }
 
+    /// The groups alone.
+    pub(crate) fn without_drawables(&self) -> Self {
+        Self { drawables: Vec::new(), groups: self.groups.clone() }
+    }
+
     /// The drawables in the order in which they were pushed.
     #[must_use]
     pub fn drawables(&self) -> &[Drawable] {
@@ -196,9 +201,13 @@ impl Scene {
     }
 
     fn centroid_chain(&self, group: GroupId) -> Vec<[f64; 3]> {
+        self.around(group).into_iter().map(|g| self.groups[g.0 as usize].centroid).collect()
+    }
+
+    /// A group after those around it, outermost first.
+    pub(crate) fn around(&self, group: GroupId) -> Vec<GroupId> {
         let parent = |g: &GroupId| self.groups[g.0 as usize].parent;
-        let inner_first = std::iter::successors(Some(group), parent);
-        let mut chain: Vec<_> = inner_first.map(|g| self.groups[g.0 as usize].centroid).collect();
+        let mut chain: Vec<_> = std::iter::successors(Some(group), parent).collect();
         chain.reverse();
         chain
     }

@@ -16,6 +16,8 @@ pub enum Pieces {
     Faces,
     /// Each edge of each face of each cell.
     Edges,
+    /// Each edge and each vertex of each face of each cell.
+    Vertices,
 }
 
 /// What an explosion stays in place around.

@@ -4,7 +4,9 @@
 //! tested without one; panels read it and send it [`Command`]s.
 
 mod coloring;
+mod command;
 mod explode;
+mod history;
 mod measuring;
 mod replay;
 mod section;
@@ -12,6 +14,7 @@ mod stage;
 mod visibility;
 
 pub use coloring::{ColorBy, scale_color, size_range};
+pub use command::{Command, Relation};
 pub use explode::{Center, Explode, ExplodeBy, LEVEL_NAMES, Pieces};
 pub use measuring::Measuring;
 pub use replay::{Replay, WrapStep};
@@ -19,22 +22,10 @@ pub use section::{Normal, Section};
 pub use stage::Stage;
 pub use visibility::{Exterior, Visibility};
 
-use crate::{CellData, CellRef, Rgb, SLATE};
+use crate::{CellData, CellRef, INK, Outline, Outlined, Rgb, SLATE, WHITE};
+use history::{History, Shown};
 use lar_core::Chain;
 use std::sync::Arc;
-use visibility::History;
-
-/// Cells that were selected before, which the way back leads through.
-const TRAIL_LIMIT: usize = 500;
-
-/// Which chain of a cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Relation {
-    /// ∂: the cells in its boundary.
-    Boundary,
-    /// δ: the cells in whose boundary it is.
-    Coboundary,
-}
 
 /// A chain that is made to stand out.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,47 +50,6 @@ pub struct Shape {
     visibility: Option<Visibility>,
 }
 
-/// What a user asks of a session.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Command {
-    /// Shows or hides all cells of a dimension.
-    ToggleLayer(u8),
-    /// Shows the exterior in another way.
-    SetExterior(Exterior),
-    /// Hides cells.
-    Hide(Vec<CellRef>),
-    /// Shows cells that were hidden or outside of what is isolated.
-    Show(Vec<CellRef>),
-    /// Shows cells alone, with their boundaries.
-    Isolate(Vec<CellRef>),
-    /// Shows everything.
-    ShowAll,
-    /// Takes the last change of visibility back.
-    Undo,
-    /// Makes it again.
-    Redo,
-    /// Turns numbers on the cells of a dimension on or off.
-    ToggleNumbers(u8),
-    /// Selects a cell, or nothing.
-    Select(Option<CellRef>),
-    /// Selects what was selected before.
-    Back,
-    /// Highlights the boundary or coboundary chain of a cell.
-    Highlight(CellRef, Relation),
-    /// Highlights any chain.
-    ShowChain(Highlight),
-    /// Highlights nothing and ends the replay.
-    ClearHighlight,
-    /// Adds a point to measure from.
-    Measure([f64; 3]),
-    /// Forgets the points to measure from.
-    ClearMeasuring,
-    /// Begins the replay of a cell's gift wrapping.
-    StartReplay(CellRef, Vec<WrapStep>),
-    /// Goes to a picture of the replay.
-    GoTo(usize),
-}
-
 /// A complex on show and the state of its show.
 ///
 /// ```
@@ -118,7 +68,9 @@ pub enum Command {
 pub struct Session {
     data: Arc<CellData>,
     visibility: Visibility,
-    history: History<Visibility>,
+    history: History<Shown>,
+    /// What was visible when it was last remembered; set when the session is complete.
+    settled: Option<Shown>,
     selected: Option<CellRef>,
     trail: Vec<CellRef>,
     highlight: Option<Highlight>,
@@ -133,6 +85,8 @@ pub struct Session {
     pub coloring: ColorBy,
     /// Opacity of triangles.
     pub opacity: f32,
+    /// What has an outline.
+    pub outline: Option<Outlined>,
     /// Colour behind everything.
     pub background: Rgb,
 }
@@ -146,6 +100,7 @@ impl Session {
             data: Arc::new(data),
             visibility: Visibility::default(),
             history: History::default(),
+            settled: None,
             selected: None,
             trail: Vec::new(),
             highlight: None,
@@ -156,6 +111,7 @@ impl Session {
             section: Section::default(),
             coloring: ColorBy::default(),
             opacity: 1.0,
+            outline: None,
             background: SLATE,
         };
         let dim = session.data.dim();
@@ -183,6 +139,7 @@ impl Session {
             section: self.section,
             coloring: self.coloring,
             opacity: self.opacity,
+            outline: self.outline,
             background: self.background,
             ..next
         }
@@ -200,10 +157,12 @@ impl Session {
         &self.visibility
     }
 
-    /// Whether there is a change of visibility to take back, and one to make again.
+    /// The outline, pale on a dark background.
     #[must_use]
-    pub fn can_undo_redo(&self) -> [bool; 2] {
-        [self.history.can_undo(), self.history.can_redo()]
+    pub fn outline(&self) -> Option<Outline> {
+        let is_dark = self.background.iter().sum::<f32>() < 0.6;
+        let color = if is_dark { WHITE } else { INK };
+        self.outline.map(|of| Outline { of, color, ..Outline::default() })
     }
 
     /// The selected cell.
@@ -255,7 +214,9 @@ impl Session {
         let faces_alone =
             self.data.dim() == 3 && (self.visibility.layers[2] || self.visibility.finest() == 2);
         let hidden = match self.visibility.finest() {
-            0 | 1 => Pieces::Edges,
+            0 => Pieces::Vertices,
+            1 if self.visibility.layers[0] => Pieces::Vertices,
+            1 => Pieces::Edges,
             _ if faces_alone => Pieces::Faces,
             _ => Pieces::Cells,
         };
@@ -280,82 +241,6 @@ impl Session {
     /// Whether what stands out depends on which units are drawn.
     fn outlines_visible(&self) -> bool {
         self.highlight.is_some() || self.selected.is_some() || self.numbers.contains(&true)
-    }
-
-    /// Does what is asked. What names cells that do not exist changes nothing.
-    pub fn apply(&mut self, command: Command) {
-        match command {
-            Command::ToggleLayer(_)
-            | Command::SetExterior(_)
-            | Command::Hide(_)
-            | Command::Show(_)
-            | Command::Isolate(_)
-            | Command::ShowAll => self.change_visibility(command),
-            Command::Undo => _ = self.history.undo(&mut self.visibility),
-            Command::Redo => _ = self.history.redo(&mut self.visibility),
-            Command::ToggleNumbers(dim) => toggle(&mut self.numbers, dim),
-            Command::Select(cell) => self.select(cell),
-            Command::Back => {
-                self.selected = self.trail.pop().or(self.selected);
-                self.highlight = None;
-            }
-            Command::Highlight(cell, relation) => self.highlight_relation(cell, relation),
-            Command::ShowChain(highlight) => self.highlight = Some(highlight),
-            Command::ClearHighlight => (self.highlight, self.replay) = (None, None),
-            Command::Measure(point) => self.measuring.push(point),
-            Command::ClearMeasuring => self.measuring.clear(),
-            Command::StartReplay(cell, steps) => {
-                self.highlight = None;
-                self.replay = Replay::new(cell, steps);
-            }
-            Command::GoTo(picture) => self.replay.iter_mut().for_each(|r| r.go_to(picture)),
-        }
-    }
-
-    fn change_visibility(&mut self, command: Command) {
-        let before = self.visibility.clone();
-        let existing = |mut cells: Vec<CellRef>| {
-            cells.retain(|&c| self.data.contains(c));
-            cells
-        };
-        match command {
-            Command::ToggleLayer(dim) => toggle(&mut self.visibility.layers, dim),
-            Command::SetExterior(exterior) => self.visibility.exterior = exterior,
-            Command::Hide(cells) => self.visibility.hide(&existing(cells)),
-            Command::Show(cells) => self.visibility.show(&self.data, &existing(cells)),
-            Command::Isolate(cells) => self.visibility.isolate(&self.data, &existing(cells)),
-            _ => self.visibility.show_all(),
-        }
-        self.history.left(before, &self.visibility);
-    }
-
-    fn select(&mut self, cell: Option<CellRef>) {
-        let cell = cell.filter(|&c| self.data.contains(c));
-        if cell != self.selected {
-            self.trail.extend(self.selected);
-            let excess = self.trail.len().saturating_sub(TRAIL_LIMIT);
-            self.trail.drain(..excess);
-            self.selected = cell;
-            self.highlight = None;
-        }
-    }
-
-    fn highlight_relation(&mut self, cell: CellRef, relation: Relation) {
-        let (symbol, chain) = match relation {
-            Relation::Boundary => ("∂", self.data.boundary(cell)),
-            Relation::Coboundary => ("δ", self.data.coboundary(cell)),
-        };
-        let top = relation == Relation::Boundary && cell.dim == self.data.dim();
-        if let Some(chain) = chain {
-            let within = top.then_some(cell);
-            self.highlight = Some(Highlight { label: format!("{symbol} {cell}"), chain, within });
-        }
-    }
-}
-
-fn toggle(flags: &mut [bool; 4], dim: u8) {
-    if let Some(flag) = flags.get_mut(usize::from(dim)) {
-        *flag = !*flag;
     }
 }
 

@@ -97,6 +97,84 @@ fn isolated_cells_are_alone_and_hidden_ones_gone() {
 }
 
 #[test]
+fn a_vertex_alone_is_a_dot_whatever_layers_there_are() {
+    let mut session = session();
+    session.apply(Command::Isolate(vec![cell(0, 5)]));
+    assert_eq!(session.pieces(), Pieces::Vertices);
+    let shown: Vec<_> =
+        scene(&session).drawables().iter().filter(|d| d.appearance().visible).cloned().collect();
+    let at = session.data().position(5).unwrap();
+    assert!(!shown.is_empty() && shown.iter().all(|d| d.name() == "vertices" && d.n_elements() == 1));
+    assert!(shown.iter().all(|d| d.corners_of_element(0) == [at]), "{shown:?}");
+    session.apply(Command::ToggleNumbers(0));
+    let numbers: Vec<_> =
+        scene(&session).drawables().iter().filter(|d| d.name() == "vertex numbers").cloned().collect();
+    assert_eq!((numbers.len(), numbers[0].corners_of_element(0)), (1, vec![at]));
+    session.apply(Command::Isolate(vec![cell(1, 3)]));
+    let names: Vec<_> = visible(&session).into_iter().map(|(name, _)| name).collect();
+    assert!(names.contains(&"edges".to_owned()) && !names.contains(&"vertices".to_owned()), "{names:?}");
+    session.apply(Command::ToggleLayer(0));
+    let ends = visible(&session).iter().filter(|(name, _)| name == "vertices").count();
+    assert!(0 < ends, "with its ends, which are isolated with it");
+    session.apply(Command::ShowAll);
+    session.apply(Command::Hide(vec![cell(0, 5)]));
+    let dots = visible(&session).iter().filter(|(name, _)| name == "vertices").count();
+    // Each of the three cubes has each corner in three faces; vertex 5 is a corner of as many cubes as have it.
+    let of_cells = session.data().cells_above(cell(0, 5), 3).iter().filter(|&&c| c != 0).count();
+    assert_eq!(dots, 3 * 24 - 3 * of_cells);
+}
+
+/// Everything that says what is visible, one step each; a slider that moves for a while is one step.
+#[test]
+fn all_of_what_is_visible_can_be_undone() {
+    let mut session = session();
+    session.opacity = 0.7;
+    session.forget_past();
+    session.apply(Command::ToggleNumbers(3));
+    for position in [0.1, 0.2, 0.3] {
+        session.section = Section { on: true, position, ..Section::default() };
+    }
+    session.settle();
+    session.settle();
+    session.opacity = 0.4;
+    session.apply(Command::ToggleLayer(0));
+    session.outline = Some(Outlined::Cells);
+    let step = |session: &mut Session| {
+        session.apply(Command::Undo);
+        let shown = (session.outline, session.visibility().layers[0], session.opacity, session.section.on);
+        (shown, session.numbers()[3])
+    };
+    assert_eq!(step(&mut session), ((None, true, 0.4, true), true));
+    assert_eq!(step(&mut session), ((None, false, 0.4, true), true));
+    assert_eq!(step(&mut session), ((None, false, 0.7, true), true));
+    assert_eq!(step(&mut session), ((None, false, 0.7, false), true));
+    assert_eq!(step(&mut session), ((None, false, 0.7, false), false));
+    assert_eq!(session.can_undo_redo(), [false, true]);
+    (0..5).for_each(|_| session.apply(Command::Redo));
+    assert_eq!((session.outline, session.section.position), (Some(Outlined::Cells), 0.3));
+}
+
+#[test]
+fn the_exterior_can_be_isolated_and_has_its_number_beside_it() {
+    let mut session = session();
+    session.apply(Command::Isolate(vec![cell(3, 0)]));
+    assert_eq!(session.visibility().exterior, Exterior::Shell);
+    assert_eq!(meshes(&session), ["c0"]);
+    (0..4).for_each(|dim| session.apply(Command::ToggleNumbers(dim)));
+    let drawn = scene(&session);
+    let numbered = |name: &str| -> Vec<[f64; 3]> {
+        let labels = drawn.drawables().iter().filter(|d| d.name() == name);
+        labels.flat_map(|d| (0..d.n_elements()).flat_map(|i| d.corners_of_element(i))).collect()
+    };
+    let counts = ["vertex numbers", "edge numbers", "face numbers"].map(|name| numbered(name).len());
+    assert_eq!(counts, [16, 28, 14], "what bounds the exterior; two faces lie between cells");
+    let at = numbered("cell numbers");
+    assert!(at.len() == 1 && 3.0 < at[0][0] && 1.0 < at[0][1] && 1.0 < at[0][2], "{at:?}");
+    session.apply(Command::Hide(vec![cell(3, 0)]));
+    assert_eq!(session.visibility().exterior, Exterior::Hidden);
+}
+
+#[test]
 fn walking_leaves_a_trail() {
     let mut session = session();
     let trail = [cell(3, 1), cell(2, 0), cell(1, 3)];

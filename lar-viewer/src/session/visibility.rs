@@ -4,9 +4,6 @@ use crate::{CellData, CellRef};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Undone changes that are remembered.
-const HISTORY_LIMIT: usize = 200;
-
 /// Sets of cells, one for each dimension. Copies share what they have in common, so that a history of them is cheap.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct CellSets([Arc<BTreeSet<u32>>; 4]);
@@ -120,6 +117,12 @@ impl Visibility {
         self.isolated.as_ref().is_some_and(|alone| alone.highest() < unit.dim)
     }
 
+    /// The highest dimension of what is isolated.
+    #[must_use]
+    pub(super) fn isolated_dim(&self) -> Option<u8> {
+        self.isolated.as_ref().map(CellSets::highest)
+    }
+
     pub(super) fn hide(&mut self, cells: &[CellRef]) {
         cells.iter().for_each(|&c| self.hidden.insert(c));
     }
@@ -149,54 +152,4 @@ impl Visibility {
 fn closure<'a>(data: &CellData, cells: &'a [CellRef]) -> impl Iterator<Item = CellRef> + use<'a> {
     let closure = (0..).zip(data.closure(cells.iter().copied()));
     closure.flat_map(|(dim, cells)| cells.into_iter().map(move |index| CellRef { dim, index }))
-}
-
-/// States that were left, and those that were returned from.
-#[derive(Clone, Debug)]
-pub(super) struct History<T> {
-    past: Vec<T>,
-    future: Vec<T>,
-}
-
-impl<T> Default for History<T> {
-    fn default() -> Self {
-        Self { past: Vec::new(), future: Vec::new() }
-    }
-}
-
-impl<T: PartialEq> History<T> {
-    /// Remembers a state that was left for `now`, unless nothing changed.
-    pub(super) fn left(&mut self, before: T, now: &T) {
-        if before != *now {
-            self.future.clear();
-            self.past.push(before);
-            if HISTORY_LIMIT < self.past.len() {
-                self.past.remove(0);
-            }
-        }
-    }
-
-    /// Goes back; returns whether there was somewhere to go.
-    pub(super) fn undo(&mut self, state: &mut T) -> bool {
-        Self::go(&mut self.past, &mut self.future, state)
-    }
-
-    /// Goes forward again.
-    pub(super) fn redo(&mut self, state: &mut T) -> bool {
-        Self::go(&mut self.future, &mut self.past, state)
-    }
-
-    fn go(from: &mut Vec<T>, to: &mut Vec<T>, state: &mut T) -> bool {
-        let Some(target) = from.pop() else { return false };
-        to.push(std::mem::replace(state, target));
-        true
-    }
-
-    pub(super) fn can_undo(&self) -> bool {
-        !self.past.is_empty()
-    }
-
-    pub(super) fn can_redo(&self) -> bool {
-        !self.future.is_empty()
-    }
 }

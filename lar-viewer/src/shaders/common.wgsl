@@ -18,6 +18,11 @@ struct Frame {
     band: u32,
     node_capacity: u32,
     cut_groups: u32,                // the clip plane takes or leaves groups whole
+    first_part: u32,                // number of the scene's first part among those of all scenes of the frame
+    outlined_level: u32,            // level of the groups that are outlined, or WHOLE
+    outline_reach: f32,             // half the width of outlines, in samples
+    padding: u32,
+    outline_color: vec4<f32>,
 }
 
 // What the triangles, segments or dots of a drawable have in common.
@@ -32,6 +37,7 @@ const CELL_EDGE: u32 = 2u;
 const HIGHLIGHTED: u32 = 4u;
 const CLIPPED: u32 = 8u;
 const NO_GROUP: u32 = 0xffffffffu;
+const WHOLE: u32 = 0xffffffffu;
 const NOWHERE: vec4<f32> = vec4<f32>(0.0, 0.0, 2.0, 1.0);
 const TABLE_WIDTH: u32 = 2048u;
 
@@ -42,8 +48,8 @@ const ID_WAY: u32 = 2u;
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 // Tables in textures, since not every adapter reads storage buffers in vertex shaders. Two texels a part: the bits of its
-// colour; flags and group. Four texels a group: the bits of its centroid relative to the centre, then relative to the
-// centroid of the group around it, level by level.
+// colour; flags and group. Four texels a group, one a level: the bits of its centroid relative to the centre, then relative
+// to the centroid of the group around it; and the number of the group around it at that level, or its own beyond its level.
 @group(0) @binding(1) var parts: texture_2d<u32>;
 @group(0) @binding(2) var groups: texture_2d<u32>;
 
@@ -68,6 +74,14 @@ fn part_at(index: u32) -> Part {
 
 fn group_offset(group: u32, level: u32) -> vec3<f32> {
     return bitcast<vec4<f32>>(textureLoad(groups, place_in_table(4u * group + level), 0)).xyz;
+}
+
+// What a group is outlined as: a number above 0.
+fn outlined(group: u32) -> u32 {
+    if group == NO_GROUP || frame.outlined_level == WHOLE {
+        return 1u;
+    }
+    return 2u + textureLoad(groups, place_in_table(4u * group + frame.outlined_level), 0).w;
 }
 
 // How far a group moves in the exploded scene.

@@ -55,7 +55,7 @@ fn label_vertex(corner: u32, index: u32, stroke: StrokeInstance, way: u32) -> St
     let luminance = dot(part.color.rgb, vec3<f32>(0.299, 0.587, 0.114));
     let rim = vec3<f32>(select(0.97, 0.10, luminance > 0.45));
     out.color = vec4<f32>(select(rim, part.color.rgb, is_core), part.color.a);
-    out.id = vec2<u32>(stroke.part + 1u, index);
+    out.id = vec2<u32>(frame.first_part + stroke.part + 1u, index);
     return out;
 }
 

@@ -71,7 +71,7 @@ fn line_vertex(corner: u32, index: u32, line: LineInstance, way: u32) -> LineFra
     out.place = vec2<f32>(out_along + select(0.0, length, at_end), out_across);
     out.extent = vec2<f32>(length, half_width);
     out.color = part.color;
-    out.id = vec2<u32>(line.part + 1u, index);
+    out.id = vec2<u32>(frame.first_part + line.part + 1u, index);
     return out;
 }
 

@@ -14,6 +14,7 @@ struct MeshFragment {
     @location(3) @interpolate(flat) color: vec4<f32>,
     @location(4) @interpolate(flat) lit: u32,
     @location(5) @interpolate(flat) id: vec2<u32>,         // part + 1, triangle
+    @location(6) @interpolate(flat) solid: u32,            // what it is outlined as
 }
 
 fn mesh_vertex(vertex: MeshVertex, index: u32, way: u32) -> MeshFragment {
@@ -31,7 +32,7 @@ fn mesh_vertex(vertex: MeshVertex, index: u32, way: u32) -> MeshFragment {
     out.height = height_over_cut(vertex.position, part);
     out.normal = (frame.view_from_scene * vec4<f32>(vertex.normal.xyz, 0.0)).xyz;
     out.lit = part.flags & LIT;
-    out.id = vec2<u32>(vertex.part + 1u, index / 3u);
+    out.id = vec2<u32>(frame.first_part + vertex.part + 1u, index / 3u);
     return out;
 }
 
@@ -50,6 +51,13 @@ fn mesh_id_vertex(@builtin(vertex_index) index: u32, vertex: MeshVertex) -> Mesh
     return mesh_vertex(vertex, index, ID_WAY);
 }
 
+@vertex
+fn mesh_solid_vertex(@builtin(vertex_index) index: u32, vertex: MeshVertex) -> MeshFragment {
+    var out = mesh_vertex(vertex, index, ID_WAY);
+    out.solid = outlined(part_at(vertex.part).group);
+    return out;
+}
+
 fn mesh_color(in: MeshFragment) -> vec4<f32> {
     if in.lit == 0u {
         return in.color;
@@ -63,6 +71,14 @@ fn mesh_opaque(in: MeshFragment) -> Opaque {
         discard;
     }
     return opaque(mesh_color(in), in.position);
+}
+
+@fragment
+fn mesh_solid(in: MeshFragment) -> @location(0) u32 {
+    if in.height > 0.0 {
+        discard;
+    }
+    return in.solid;
 }
 
 @fragment

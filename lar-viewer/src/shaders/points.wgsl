@@ -35,7 +35,7 @@ fn point_vertex(corner: u32, index: u32, point: PointInstance, way: u32) -> Poin
     out.position = vec4<f32>(center.xy + out.place / (0.5 * frame.viewport), center.z, 1.0);
     out.radius = radius;
     out.color = part.color;
-    out.id = vec2<u32>(point.part + 1u, index);
+    out.id = vec2<u32>(frame.first_part + point.part + 1u, index);
     return out;
 }
 

@@ -17,13 +17,6 @@ fn precedes(a: vec3<u32>, b: vec3<u32>) -> bool {
     return a.z < b.z;
 }
 
-@vertex
-fn whole_screen(@builtin(vertex_index) corner: u32) -> @builtin(position) vec4<f32> {
-    let x = select(-1.0, 3.0, corner == 1u);
-    let y = select(-1.0, 3.0, corner == 2u);
-    return vec4<f32>(x, y, 0.0, 1.0);
-}
-
 @fragment
 fn resolve(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let first = atomicLoad(&heads[head_index(position)]);

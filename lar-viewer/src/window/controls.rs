@@ -16,6 +16,8 @@ const TREE_WIDTH: f32 = 230.0;
 const PANEL_WIDTH: f32 = 270.0;
 /// Height of what is known of the selection, in points.
 const SELECTION_HEIGHT: f32 = 300.0;
+/// The most of the left panel that it takes.
+const SELECTION_SHARE: f32 = 0.6;
 
 /// What a click does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -145,6 +147,9 @@ impl Controls {
         }
         self.view = self.subject.view(self.view);
         let dragging = ui.input(|i| i.pointer.any_down());
+        if !dragging {
+            self.subject.settle();
+        }
         Asked { area: response.rect, capture, click: click(&response), load, close, dragging }
     }
 
@@ -187,7 +192,10 @@ impl Controls {
         let left = egui::Panel::left("tree").default_size(TREE_WIDTH);
         let mut commands = Vec::new();
         left.show(ui, |ui| {
-            let below = egui::Panel::bottom("selection").default_size(SELECTION_HEIGHT).resizable(true);
+            // The tree keeps some of a low window.
+            let most = (SELECTION_SHARE * ui.available_height()).max(1.0);
+            let below = egui::Panel::bottom("selection").default_size(SELECTION_HEIGHT).max_size(most);
+            let below = below.resizable(true);
             below.show(ui, |ui| {
                 egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                     commands.extend(panels::inspector(ui, session));
@@ -281,10 +289,7 @@ impl Controls {
     pub(crate) fn clicked(&mut self, click: Click, hit: Option<Hit>) {
         if click.double {
             if let Some(hit) = hit {
-                let drawable = &self.subject.scene.drawables()[hit.drawable];
-                let center = self.subject.scene.center();
-                let moved = self.subject.scene.displacement(drawable, &self.view.explode, center);
-                let target = (DVec3::from(hit.point) + DVec3::from(moved)).to_array();
+                let target = (DVec3::from(hit.point) + DVec3::from(hit.moved)).to_array();
                 self.view.camera = Camera { target, ..self.view.camera };
             }
         } else if self.tool == Tool::Measure {

@@ -16,11 +16,12 @@ pub(crate) struct Explored {
 
 /// What a window shows.
 pub(crate) struct Subject {
-    pub(crate) scene: Arc<Scene>,
-    /// How the drawables look.
+    /// What stands out, drawn first, and the pieces.
+    pub(crate) scenes: [Arc<Scene>; 2],
+    /// How the drawables of the pieces look.
     pub(crate) looks: Vec<Appearance>,
-    /// Rises when the scene changes.
-    pub(crate) revision: u64,
+    /// Each rises when its scene changes.
+    pub(crate) revisions: [u64; 2],
     pub(crate) explored: Option<Explored>,
     bounds: Option<Bounds>,
 }
@@ -28,15 +29,21 @@ pub(crate) struct Subject {
 impl Subject {
     /// A scene as it is.
     pub(crate) fn scene(scene: Scene) -> Self {
-        let (looks, bounds) = (scene.appearances(), scene.bounds([1.0; 3]));
-        Self { scene: Arc::new(scene), looks, revision: 0, explored: None, bounds }
+        Self::pieces(Arc::new(scene), Scene::new())
+    }
+
+    fn pieces(pieces: Arc<Scene>, standing_out: Scene) -> Self {
+        let (looks, bounds) = (pieces.appearances(), pieces.bounds([1.0; 3]));
+        Self { scenes: [Arc::new(standing_out), pieces], looks, revisions: [0; 2], explored: None, bounds }
     }
 
     /// A complex in a session.
-    pub(crate) fn complex(session: Session, queries: Box<dyn Queries>) -> Result<Self, ViewerError> {
+    pub(crate) fn complex(mut session: Session, queries: Box<dyn Queries>) -> Result<Self, ViewerError> {
+        session.forget_past();
         let shape = session.shape();
         let stage = Stage::new(session.data(), shape.pieces)?;
-        let mut subject = Self::scene(stage.scene(&session)?);
+        let mut subject = Self::pieces(Arc::clone(stage.pieces()), stage.standing_out(&session)?);
+        subject.looks = stage.appearances(&session);
         subject.explored = Some(Explored { session, queries, stage, shape });
         Ok(subject)
     }
@@ -45,8 +52,8 @@ impl Subject {
     pub(crate) fn replace(&mut self, exhibit: Exhibit) -> Result<(), ViewerError> {
         let Some(explored) = &self.explored else { return Ok(()) };
         let session = explored.session.with_data(exhibit.data);
-        let revision = self.revision + 1;
-        *self = Self { revision, ..Self::complex(session, exhibit.queries)? };
+        let revisions = self.revisions.map(|r| r + 1);
+        *self = Self { revisions, ..Self::complex(session, exhibit.queries)? };
         Ok(())
     }
 
@@ -57,19 +64,27 @@ impl Subject {
         }
     }
 
-    /// Follows the session: looks always, the scene when other things are drawn.
+    /// Remembers what is visible as a step to be undone.
+    pub(crate) fn settle(&mut self) {
+        self.explored.iter_mut().for_each(|explored| explored.session.settle());
+    }
+
+    /// Follows the session: looks always, what stands out when it is something else, the pieces when they are finer or
+    /// coarser.
     pub(crate) fn update(&mut self) -> Result<(), ViewerError> {
         let Some(Explored { session, stage, shape, .. }) = &mut self.explored else { return Ok(()) };
         let wanted = session.shape();
         if *shape != wanted {
-            if stage.pieces() != wanted.pieces {
+            if stage.fineness() != wanted.pieces {
                 *stage = Stage::new(session.data(), wanted.pieces)?;
+                self.scenes[1] = Arc::clone(stage.pieces());
+                self.revisions[1] += 1;
             }
             *shape = wanted;
-            self.scene = Arc::new(stage.scene(session)?);
-            self.revision += 1;
+            self.scenes[0] = Arc::new(stage.standing_out(session)?);
+            self.revisions[0] += 1;
         }
-        self.looks = stage.appearances(&self.scene, session);
+        self.looks = stage.appearances(session);
         Ok(())
     }
 
@@ -77,7 +92,8 @@ impl Subject {
     pub(crate) fn view(&self, view: View) -> View {
         let Some(Explored { session, .. }) = &self.explored else { return view };
         let clip = self.bounds.as_ref().and_then(|bounds| session.section.clip(bounds));
-        View { explode: session.explode.explosion(), background: session.background, clip, ..view }
+        let (explode, outline) = (session.explode.explosion(), session.outline());
+        View { explode, outline, background: session.background, clip, ..view }
     }
 
     /// Whether it is a complex in the plane.
@@ -87,10 +103,10 @@ impl Subject {
 
     /// The camera with everything visible in the picture; the whole scene when nothing is.
     pub(crate) fn fit(&self, view: &View, aspect: f64) -> Camera {
-        let points = self.scene.visible_points(&self.looks, view.explode);
+        let points = self.scenes[1].visible_points(&self.looks, view.explode);
         let mut points = points.peekable();
         if points.peek().is_none() {
-            view.fit(&self.scene, aspect).camera
+            view.fit(&self.scenes[1], aspect).camera
         } else {
             view.camera.fit_points(points, aspect)
         }

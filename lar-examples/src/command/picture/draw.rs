@@ -29,7 +29,7 @@ impl Render {
         let renderer = if is_svg { None } else { Some(OffscreenRenderer::new()?) };
         let (width, height) = (self.size.width, self.size.height);
         let (session, scene) = staged(&self.inputs, &self.look)?;
-        let view = self.view(&scene)?;
+        let view = self.view(&session, &scene)?;
         let path = self.output.display();
         if let Some(mut renderer) = renderer {
             let mut image = renderer.render(&scene, &view, width, height)?;
@@ -41,21 +41,40 @@ impl Render {
             image.write_png(&self.output)?;
             writeln!(out, "{path}: {width} × {height}, drawn by {}", renderer.adapter_name())?;
         } else {
-            let drawing = LineDrawing::new(&scene, &view, [width, height])?;
+            let draw = if self.lines { LineDrawing::new } else { LineDrawing::filled };
+            let mut drawing = draw(&scene, &view, [width, height])?;
+            if let Some(bar) = self.look.color_bar(&session) {
+                let (bar, margin) = (bar.drawing((height / 2).clamp(1, 800))?, height / 40);
+                let left = width.saturating_sub(bar.size()[0] + margin);
+                drawing.overlay(&bar, [left, margin].map(f64::from));
+            }
             let text = drawing.to_svg();
             atomic_write(&self.output, |file| file.write_all(text.as_bytes()))?;
-            writeln!(out, "{path}: {width} × {height}, {} lines", drawing.lines().len())?;
+            writeln!(
+                out,
+                "{path}: {width} × {height}, {} faces, {} lines",
+                drawing.areas().len(),
+                drawing.lines().len()
+            )?;
         }
         Ok(())
     }
 }
 
 impl Render {
-    fn view(&self, scene: &Scene) -> Result<View, CommandError> {
+    fn view(&self, session: &Session, scene: &Scene) -> Result<View, CommandError> {
         let aspect = f64::from(self.size.width) / f64::from(self.size.height);
         let Background(background, background_opacity) = self.look.background();
         let explode = self.look.explosion().explosion();
-        let view = View { explode, clip: self.cut.clip(), background, background_opacity, ..View::default() };
+        let outline = session.outline();
+        let view = View {
+            explode,
+            clip: self.cut.clip(),
+            outline,
+            background,
+            background_opacity,
+            ..View::default()
+        };
         let fitted = |lens: Camera| {
             let orientation = self.direction.orientation().unwrap_or(lens.orientation);
             View { camera: Camera { orientation, ..lens }, ..view }.fit(scene, aspect).camera

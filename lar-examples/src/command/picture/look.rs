@@ -6,7 +6,7 @@ use lar_core::Chain;
 use lar_viewer::session::{
     Center, ColorBy, Command, Explode, ExplodeBy, Exterior, LEVEL_NAMES, Session, size_range,
 };
-use lar_viewer::{CellData, CellRef, Clip, ColorBar, ColorMap, LEVELS, Rgb, SLATE, WHITE};
+use lar_viewer::{CellData, CellRef, Clip, ColorBar, ColorMap, LEVELS, Outlined, Rgb, SLATE, WHITE};
 use std::str::FromStr;
 
 /// How the cells are shown.
@@ -42,6 +42,9 @@ pub(crate) struct Look {
     /// The exterior cell; when not given it is a shell if all cells are shown exploded, else hidden.
     #[arg(long, value_enum, value_name = "HOW")]
     exterior: Option<Outside>,
+    /// Draws a line around what is seen of the model, of each input or of each cell.
+    #[arg(long, value_enum, value_name = "WHAT")]
+    outline: Option<Lined>,
     /// Colour behind everything: slate, white, dark, transparent, or #rrggbb.
     #[arg(long, value_name = "COLOR", default_value = "slate")]
     background: Background,
@@ -129,6 +132,16 @@ enum Outside {
     Shell,
     /// A barely visible shell.
     Translucent,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Lined {
+    /// Everything as one.
+    Model,
+    /// The cells of each input together.
+    Solids,
+    /// Each cell.
+    Cells,
 }
 
 /// Factors of an explosion.
@@ -243,6 +256,11 @@ impl Look {
             Meaning::Size => ColorBy::Size,
             Meaning::Plain => ColorBy::Plain,
         };
+        session.outline = self.outline.map(|of| match of {
+            Lined::Model => Outlined::Model,
+            Lined::Solids => Outlined::Solids,
+            Lined::Cells => Outlined::Cells,
+        });
         session.opacity = self.alpha;
         session.background = self.background.0;
         session

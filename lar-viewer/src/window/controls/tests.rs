@@ -121,9 +121,10 @@ fn drag(window: &mut Window, button: PointerButton, from: Pos2, by: egui::Vec2) 
 }
 
 fn pick(window: &mut Window, cell: CellRef, owner: CellRef, point: [f64; 3]) {
-    let scene = &window.state().controls.subject.scene;
+    let scene = &window.state().controls.subject.scenes[1];
     let drawable = scene.drawables().iter().position(|d| d.cell_ref() == Some(owner)).unwrap();
-    let hit = Hit { drawable, element: 0, cell: Some(cell), owner: Some(owner), point, pixel: [0, 0] };
+    let (cell, owner, moved) = (Some(cell), Some(owner), [0.0; 3]);
+    let hit = Hit { drawable, element: 0, cell, owner, point, moved, pixel: [0, 0] };
     let click = Click { at: [0.0; 2], double: false };
     window.state_mut().controls.clicked(click, Some(hit));
     window.run_ok();
@@ -259,6 +260,68 @@ fn visibility_is_hidden_isolated_and_undone() {
     assert!(!session(&window).visibility().layers[0]);
     key(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     assert!(session(&window).visibility().layers[0]);
+}
+
+/// A slider that is dragged makes one step of it, and so does a choice in a list.
+#[test]
+fn clip_plane_opacity_and_outline_are_undone_too() {
+    let mut window = complex_window();
+    click(&mut window, "Clip plane");
+    click(&mut window, "cut");
+    // The sliders of the explosion are named like the axes, and come first.
+    window.get_all_by_label("z").last().unwrap().click();
+    window.run_ok();
+    let position = window.get_by_role_and_label(egui::accesskit::Role::Slider, "position").rect().center();
+    drag(&mut window, PointerButton::Primary, position, vec2(30.0, 0.0));
+    window.run_ok();
+    let moved = session(&window).section.position;
+    assert!(moved != 0.5 && window.state().controls.view.clip.is_some(), "{moved}");
+    window.state_mut().controls.subject.explored.as_mut().unwrap().session.outline =
+        Some(crate::Outlined::Cells);
+    window.run_ok();
+    assert_eq!(window.state().controls.view.outline.map(|o| o.of), Some(crate::Outlined::Cells));
+    let state = |window: &Window| {
+        let session = session(window);
+        (
+            session.outline.is_some(),
+            session.section.position == moved,
+            session.section.normal,
+            session.section.on,
+        )
+    };
+    let [x, z] = [0, 2].map(crate::session::Normal::Axis);
+    assert_eq!(state(&window), (true, true, z, true));
+    for expected in
+        [(false, true, z, true), (false, false, z, true), (false, false, x, true), (false, false, x, false)]
+    {
+        click(&mut window, "Undo");
+        assert_eq!(state(&window), expected);
+    }
+    assert!(window.state().controls.view.clip.is_none());
+}
+
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &std::path::Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+#[test]
+fn files_that_are_dropped_are_asked_for() {
+    let mut window = complex_window();
+    let file = PathBuf::from("/tmp/a.obj");
+    window.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(file.clone())));
+    window.step();
+    assert_eq!(window.state().asked.as_ref().unwrap().load, [file]);
+    window.step();
+    assert!(window.state().asked.as_ref().unwrap().load.is_empty(), "once");
 }
 
 #[test]

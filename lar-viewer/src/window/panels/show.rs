@@ -1,7 +1,7 @@
 //! What is drawn, and in which colours.
 
 use crate::session::{ColorBy, Command, Exterior, Session, scale_color, size_range};
-use crate::{INK, Rgb, SLATE, View, WHITE};
+use crate::{INK, Outlined, Rgb, SLATE, View, WHITE};
 use egui::{ComboBox, Rect, Sense, Slider, Ui, vec2};
 
 /// The dimensions, lowest first.
@@ -40,6 +40,8 @@ pub(crate) fn show(ui: &mut Ui, session: &mut Session) -> Vec<Command> {
         scale(ui, session);
     }
     ui.add(Slider::new(&mut session.opacity, 0.0..=1.0).text("opacity"));
+    let outlines = [None].into_iter().chain(Outlined::ALL.map(Some)).collect::<Vec<_>>();
+    choice(ui, "outline", &mut session.outline, &outlines, |of| of.map_or("none", Outlined::name));
     background(ui, &mut session.background);
     ui.horizontal(|ui| {
         let [undo, redo] = session.can_undo_redo();

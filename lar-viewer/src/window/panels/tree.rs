@@ -84,7 +84,7 @@ fn leaf(ui: &mut Ui, session: &Session, cell: CellRef, commands: &mut Vec<Comman
     ui.horizontal(|ui| {
         let mut shown = session.draws(cell);
         let exterior = session.data().is_exterior(cell);
-        let check = ui.add_enabled(!exterior, egui::Checkbox::without_text(&mut shown));
+        let check = ui.add(egui::Checkbox::without_text(&mut shown));
         check.widget_info(|| named(shown, &format!("show {cell}")));
         if check.changed() {
             commands.push(if shown { Command::Show(vec![cell]) } else { Command::Hide(vec![cell]) });
