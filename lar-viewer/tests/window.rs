@@ -76,6 +76,8 @@ fn windows_come_back_on_a_dense_screen() {
     for act in ["windowunmap", "windowmap", "windowfocus windowmove 0 0"] {
         session.xdotool(&format!("search --name cubes {act}"));
     }
+    // What is done before the window is drawn again would be lost.
+    session.look();
     session.check_changes("turning again", 20_000, |s| s.drag(1, [300, 400], [200, 380]));
     session.xdotool("mousemove 300 500 key Escape");
     session.check_closes();
