@@ -3,9 +3,10 @@
 
 mod common;
 
-use common::{Random, all_counts, arranged};
+use common::{Random, all_counts, arranged, each_seed};
 use lar_arrangement::Arrangement;
 use lar_core::{Points, Surface, icosphere};
+use std::cell::Cell;
 
 /// A sphere of triangles, every point moved.
 fn crumpled(level: u32, moved: impl FnMut([f64; 3]) -> [f64; 3]) -> Surface {
@@ -36,35 +37,35 @@ fn check(surface: &Surface, seed: u64) -> Arrangement {
 
 #[test]
 fn spheres_that_cross_themselves() {
-    let mut n_cells = 0;
-    for seed in 0..40 {
+    let n_cells = Cell::new(0);
+    each_seed(40, |seed| {
         let random = &mut Random(seed);
         // From hardly dented to a heap of triangles.
         let size = [0.05, 0.2, 0.5, 1.0][seed as usize % 4];
         let mut shift = || size * (random.below(1 << 20) as f64 / f64::from(1 << 19) - 1.0);
         let surface = crumpled(1 + seed as u32 % 2, |p| p.map(|x| x + shift()));
-        n_cells += check(&surface, seed).n_cells() - 2;
-    }
-    assert!(n_cells > 1000, "only {n_cells} cells");
+        n_cells.set(n_cells.get() + check(&surface, seed).n_cells() - 2);
+    });
+    assert!(n_cells.get() > 1000, "only {} cells", n_cells.get());
 }
 
 /// On a coarse lattice: triangles in one plane, corners on edges, points that meet.
 #[test]
 fn spheres_on_a_lattice() {
-    for seed in 0..60 {
+    each_seed(60, |seed| {
         let random = &mut Random(seed);
         let (scale, reach) = [(2.0, 1), (3.0, 2), (5.0, 2)][seed as usize % 3];
         let mut shift = || random.below(2 * reach + 1) as f64 - reach as f64;
         check(&crumpled(1 + seed as u32 % 2, |p| p.map(|x| (scale * x).round() + shift())), seed);
-    }
+    });
 }
 
 /// Smooth surfaces that fold over and cross themselves: large parts of them are seen side by side along an axis, others
 /// cover themselves.
 #[test]
 fn spheres_bent_by_waves() {
-    let mut n_cells = 0;
-    for seed in 0..12 {
+    let n_cells = Cell::new(0);
+    each_seed(12, |seed| {
         let random = &mut Random(seed);
         let mut number = |size: f64| size * (random.below(1 << 20) as f64 / f64::from(1 << 19) - 1.0);
         let waves: [[f64; 4]; 3] =
@@ -75,9 +76,9 @@ fn spheres_bent_by_waves() {
                 p[k] + height * (a * p[0] + b * p[1] + c * p[2]).sin()
             })
         };
-        n_cells += check(&crumpled(3, bent), seed).n_cells() - 2;
-    }
-    assert!(n_cells > 50, "only {n_cells} cells");
+        n_cells.set(n_cells.get() + check(&crumpled(3, bent), seed).n_cells() - 2);
+    });
+    assert!(n_cells.get() > 50, "only {} cells", n_cells.get());
 }
 
 /// Neighbours in a smooth mesh are no pairs.
