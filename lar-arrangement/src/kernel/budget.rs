@@ -163,8 +163,9 @@ fn exercise(geometry: &Geometry, n_facets: u32) {
             geometry.exact_order_with_midpoint(p, &middle, 2);
             for f in 0..n_facets {
                 geometry.exact_side(p, Support::Facet(f));
-                geometry.exact_side_of_midpoint(&middle, f);
-                let hit = (0..n_facets).map(|g| geometry.exact_order_of_hits(&middle, [f, g]));
+                geometry.exact_side_of_midpoint(&middle, Support::Facet(f));
+                let hit = (0..n_facets)
+                    .map(|g| geometry.exact_order_of_hits(&middle, Support::Facet(f), Support::Facet(g)));
                 assert!(hit.count() == n_facets as usize);
             }
         }
@@ -174,9 +175,11 @@ fn exercise(geometry: &Geometry, n_facets: u32) {
     let directions: Vec<Direction> = edges.chain(lines).map(|along| geometry.direction(along)).collect();
     for d in &directions {
         geometry.exact_axis(d);
-        (0..n_facets).for_each(|f| assert_eq!(geometry.exact_turn_about(f, f, d), Sign::Zero));
+        (0..n_facets).for_each(|f| {
+            assert_eq!(geometry.exact_turn_about(Support::Facet(f), Support::Facet(f), d), Sign::Zero);
+        });
         for f in 1..n_facets {
-            geometry.exact_turn_about(0, f, d);
+            geometry.exact_turn_about(Support::Facet(0), Support::Facet(f), d);
         }
         assert_eq!(geometry.exact_turn(d, d, 0, 1), Sign::Zero);
         for e in &directions {

@@ -1,4 +1,4 @@
-//! The exact side of the predicates: the same arithmetic in the width that the scene needs.
+//! The exact side of the predicates: the same arithmetic in the width that the operands need.
 
 use super::geometry::{Geometry, Reach, Support, VertexDef};
 use super::point::{HPointOf, Plane, PlaneOf};
@@ -6,17 +6,70 @@ use super::predicates::{Along, Direction, Midpoint};
 use super::{Int, Sign};
 use std::cmp::Ordering;
 
-/// Methods that call an exact body in as many limbs as the geometry needs: on the grid, with canonical planes, with
-/// planes through rational points. The numbers come from the table in the module's header.
+/// An operand of a predicate.
+trait Operand {
+    /// What exact arithmetic on it has to hold.
+    fn reach(&self, geometry: &Geometry) -> Reach;
+}
+
+impl Operand for VertexDef {
+    fn reach(&self, geometry: &Geometry) -> Reach {
+        match *self {
+            VertexDef::Point(p) => geometry.reach_of_point(p),
+            VertexDef::EdgePlane { ends, support } => ends.reach(geometry).max(support.reach(geometry)),
+            VertexDef::Facets(facets) => {
+                facets.into_iter().map(|f| geometry.reach_of_facet(f)).max().unwrap_or_default()
+            }
+        }
+    }
+}
+
+/// The ends of an edge.
+impl Operand for [u32; 2] {
+    fn reach(&self, geometry: &Geometry) -> Reach {
+        geometry.reach_of_point(self[0]).max(geometry.reach_of_point(self[1]))
+    }
+}
+
+impl Operand for Support {
+    fn reach(&self, geometry: &Geometry) -> Reach {
+        match self {
+            Support::Facet(facet) => geometry.reach_of_facet(*facet),
+            Support::Vertical { ends, .. } => ends.reach(geometry),
+        }
+    }
+}
+
+impl Operand for Direction {
+    fn reach(&self, geometry: &Geometry) -> Reach {
+        match &self.along {
+            Along::Edge(ends) => ends.reach(geometry),
+            Along::Facets([f, g]) => geometry.reach_of_facet(*f).max(geometry.reach_of_facet(*g)),
+        }
+    }
+}
+
+impl Operand for Midpoint {
+    fn reach(&self, geometry: &Geometry) -> Reach {
+        self.of[0].reach(geometry).max(self.of[1].reach(geometry))
+    }
+}
+
+/// Methods that call an exact body in as many limbs as the operands after the bar need: on the grid, with canonical
+/// planes, with planes through rational points. The numbers come from the table in the module's header.
 macro_rules! in_the_width_needed {
     ($($name:ident => $body:ident[$grid:literal, $canonical:literal, $mixed:literal]
-        ($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
+        ($($operand:ident: $kind:ty),* $(; $argument:ident: $type:ty)*) -> $result:ty;)*) => {
         impl Geometry {
-            $(pub(super) fn $name(&self, $($argument: $type),*) -> $result {
-                match self.reach() {
-                    Reach::Grid => self.$body::<$grid>($($argument),*),
-                    Reach::Canonical => self.$body::<$canonical>($($argument),*),
-                    Reach::Mixed => self.$body::<$mixed>($($argument),*),
+            $(pub(super) fn $name(&self, $($operand: $kind,)* $($argument: $type),*) -> $result {
+                let reach = match self.reach() {
+                    Reach::Grid => Reach::Grid,
+                    _ => Reach::Grid$(.max($operand.reach(self)))*,
+                };
+                match reach {
+                    Reach::Grid => self.$body::<$grid>($($operand,)* $($argument),*),
+                    Reach::Canonical => self.$body::<$canonical>($($operand,)* $($argument),*),
+                    Reach::Mixed => self.$body::<$mixed>($($operand,)* $($argument),*),
                 }
             })*
         }
@@ -26,19 +79,19 @@ macro_rules! in_the_width_needed {
 in_the_width_needed! {
     exactly_rounded => rounded_in[5, 12, 23](def: &VertexDef) -> [f64; 3];
     homogeneous => homogeneous_in[5, 12, 23](def: &VertexDef) -> [String; 4];
-    moved_and_rounded => moved_and_rounded_in[6, 13, 24](def: &VertexDef, offset: [i128; 3]) -> [f64; 3];
+    moved_and_rounded => moved_and_rounded_in[6, 13, 24](def: &VertexDef; offset: [i128; 3]) -> [f64; 3];
     exact_side => side_in[6, 19, 30](def: &VertexDef, support: Support) -> Sign;
-    exact_order => order_in[9, 23, 44](a: &VertexDef, b: &VertexDef, axis: usize) -> Ordering;
+    exact_order => order_in[9, 23, 44](a: &VertexDef, b: &VertexDef; axis: usize) -> Ordering;
     exact_equality => equality_in[9, 23, 44](a: &VertexDef, b: &VertexDef) -> bool;
     exact_axis => axis_in[3, 5, 15](d: &Direction) -> (usize, Sign);
-    exact_component => component_in[3, 5, 15](d: &Direction, axis: usize) -> Sign;
-    exact_turn => turn_in[6, 10, 29](a: &Direction, b: &Direction, u: usize, v: usize) -> Sign;
-    exact_turn_about => turn_about_in[6, 8, 29](f: u32, g: u32, d: &Direction) -> Sign;
+    exact_component => component_in[3, 5, 15](d: &Direction; axis: usize) -> Sign;
+    exact_turn => turn_in[6, 10, 29](a: &Direction, b: &Direction; u: usize; v: usize) -> Sign;
+    exact_turn_about => turn_about_in[6, 8, 29](f: Support, g: Support, d: &Direction) -> Sign;
     exact_orientation =>
-        orientation_in[18, 46, 88](p: &VertexDef, q: &VertexDef, m: &Midpoint, u: usize, v: usize) -> Sign;
-    exact_order_with_midpoint => order_with_midpoint_in[13, 34, 66](a: &VertexDef, m: &Midpoint, axis: usize) -> Ordering;
-    exact_side_of_midpoint => side_of_midpoint_in[10, 25, 51](m: &Midpoint, facet: u32) -> Sign;
-    exact_order_of_hits => order_of_hits_in[12, 26, 59](m: &Midpoint, facets: [u32; 2]) -> Ordering;
+        orientation_in[18, 46, 88](p: &VertexDef, q: &VertexDef, m: &Midpoint; u: usize; v: usize) -> Sign;
+    exact_order_with_midpoint => order_with_midpoint_in[13, 34, 66](a: &VertexDef, m: &Midpoint; axis: usize) -> Ordering;
+    exact_side_of_midpoint => side_of_midpoint_in[10, 25, 51](m: &Midpoint, facet: Support) -> Sign;
+    exact_order_of_hits => order_of_hits_in[12, 26, 59](m: &Midpoint, f: Support, g: Support) -> Ordering;
 }
 
 impl Geometry {
@@ -162,10 +215,9 @@ impl Geometry {
         (a[u] * b[v]).cmp(&(a[v] * b[u])).into()
     }
 
-    fn turn_about_in<const W: usize>(&self, f: u32, g: u32, d: &Direction) -> Sign {
+    fn turn_about_in<const W: usize>(&self, f: Support, g: Support, d: &Direction) -> Sign {
         let exact = self.exact_direction::<W>(d);
-        let normals =
-            self.wide_plane::<W>(Support::Facet(f)).direction_with(&self.wide_plane(Support::Facet(g)));
+        let normals = self.wide_plane::<W>(f).direction_with(&self.wide_plane(g));
         (0..3).fold(Int::ZERO, |sum, k| sum + normals[k] * exact[k]).sign()
     }
 
@@ -194,13 +246,13 @@ impl Geometry {
         self.exact_point::<W>(a).cmp_coordinate(&self.exact_midpoint(m), axis)
     }
 
-    fn side_of_midpoint_in<const W: usize>(&self, m: &Midpoint, facet: u32) -> Sign {
-        self.wide_plane::<W>(Support::Facet(facet)).scaled_side(&self.exact_midpoint(m)).sign()
+    fn side_of_midpoint_in<const W: usize>(&self, m: &Midpoint, facet: Support) -> Sign {
+        self.wide_plane::<W>(facet).scaled_side(&self.exact_midpoint(m)).sign()
     }
 
     /// Order of side / normal[0], then of what the moved start adds to it: normal[1] / normal[0], normal[2] / normal[0].
-    fn order_of_hits_in<const W: usize>(&self, m: &Midpoint, [f, g]: [u32; 2]) -> Ordering {
-        let [f, g] = [f, g].map(|f| self.wide_plane::<W>(Support::Facet(f)));
+    fn order_of_hits_in<const W: usize>(&self, m: &Midpoint, f: Support, g: Support) -> Ordering {
+        let [f, g] = [f, g].map(|f| self.wide_plane::<W>(f));
         let m = self.exact_midpoint::<W>(m);
         let flip = f.n[0].sign().times(g.n[0].sign()) == Sign::Negative;
         let quotients = |a: &Int<W>, b: &Int<W>| {

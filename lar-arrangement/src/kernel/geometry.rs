@@ -122,6 +122,8 @@ pub(crate) struct Geometry {
     plane_codes: Vec<u32>,
     /// The first facet on each shared plane.
     first_on_plane: Vec<u32>,
+    /// How many of the shared planes, the first ones, have small coefficients.
+    n_small_planes: u32,
     reach: Reach,
     pub counters: Counters,
 }
@@ -143,6 +145,7 @@ impl Geometry {
             close_planes: canonical.planes.iter().map(ApproxPlane::new).collect(),
             reach: if canonical.rational.is_empty() { Reach::Grid } else { Reach::Canonical },
             first_on_plane: vec![u32::MAX; canonical.planes.len()],
+            n_small_planes: canonical.planes.len() as u32,
             canonical,
             ..Self::default()
         }
@@ -158,6 +161,19 @@ impl Geometry {
 
     pub(crate) fn reach(&self) -> Reach {
         self.reach
+    }
+
+    /// What a point takes.
+    pub(super) fn reach_of_point(&self, p: u32) -> Reach {
+        if self.rational_entry(p).is_some() { Reach::Canonical } else { Reach::Grid }
+    }
+
+    /// What the plane of a facet takes: small coefficients are smaller than those of planes through grid points.
+    pub(super) fn reach_of_facet(&self, facet: u32) -> Reach {
+        match self.shared_plane(facet) {
+            Some((plane, _)) if self.n_small_planes <= plane => Reach::Mixed,
+            _ => Reach::Grid,
+        }
     }
 
     fn rational_entry(&self, p: u32) -> Option<usize> {

@@ -225,7 +225,7 @@ impl Geometry {
             return Sign::from(det.signum() as i8);
         }
         self.counters.count();
-        self.exact_turn_about(f, g, d)
+        self.exact_turn_about(Support::Facet(f), Support::Facet(g), d)
     }
 
     /// Whether two facets lie in one plane.
@@ -292,7 +292,7 @@ impl Geometry {
             return sign;
         }
         self.counters.count();
-        self.exact_side_of_midpoint(m, facet)
+        self.exact_side_of_midpoint(m, Support::Facet(facet))
     }
 
     /// Order in which the ray from a midpoint towards −x meets the planes of two facets, neither of them parallel to
@@ -303,7 +303,8 @@ impl Geometry {
             return a.total_cmp(&b);
         }
         self.counters.count();
-        self.exact_order_of_hits(m, facets)
+        let [f, g] = facets.map(Support::Facet);
+        self.exact_order_of_hits(m, f, g)
     }
 }
 
