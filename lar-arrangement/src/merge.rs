@@ -136,8 +136,9 @@ pub(crate) fn with_two_edges(
 }
 
 /// Keeps the edges inside of new faces that would be none: where one remaining half-edge stands in two of the faces
-/// to be joined, their union folds back over itself, and its boundary would count that edge twice. Polygons that cross
-/// themselves do that when rounding has bent them. True when there are such; faces are then to be joined anew.
+/// to be joined, their union folds back over itself, and its boundary would count that edge twice; where no edge remains,
+/// the faces close up to a surface, flat but for rounding. Polygons that cross themselves do the former when rounding has
+/// bent them. True when there are such; faces are then to be joined anew.
 /// O(n log n).
 pub(crate) fn keep_folds(faces: &Faces, removed: &mut [bool], new_face: &[u32], n_new_faces: usize) -> bool {
     let mut size = vec![0u32; n_new_faces];
@@ -147,7 +148,8 @@ pub(crate) fn keep_folds(faces: &Faces, removed: &mut [bool], new_face: &[u32], 
         kept.extend(faces.half_edges(face).filter(|h| !removed[(h / 2) as usize]).map(|h| (new, h)));
     }
     kept.sort_unstable();
-    let mut folded = vec![false; n_new_faces];
+    let mut folded: Vec<bool> = size.iter().map(|&size| size > 1).collect();
+    kept.iter().for_each(|&(new, _)| folded[new as usize] = false);
     kept.windows(2).filter(|w| w[0] == w[1]).for_each(|w| folded[w[0].0 as usize] = true);
     for (face, _) in new_face.iter().enumerate().filter(|(_, new)| folded[**new as usize]) {
         faces.half_edges(face).for_each(|h| removed[(h / 2) as usize] = false);

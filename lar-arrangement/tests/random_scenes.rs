@@ -82,7 +82,8 @@ fn names_orders_axes_and_threads_do_not_matter() {
 /// Coplanar faces of triangles merged: the same cells with the same volumes and winding numbers.
 #[test]
 fn merged_faces_bound_the_same_cells() {
-    each_seed(40, |seed| {
+    // Four facets of one sliver, meant to be in one plane, close up.
+    each_of([50_014_626], 40, |seed| {
         let random = &mut Random(seed);
         let triangles = |s: &Surface| match s.face(0).len() {
             1 => Surface::from_triangles("triangles", &common::triangle_mesh(s)),
