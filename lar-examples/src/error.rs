@@ -161,6 +161,18 @@ pub enum CommandError {
     #[cfg(feature = "viewer")]
     #[error(transparent)]
     Viewer(#[from] lar_viewer::ViewerError),
+    /// The viewer for browsers was not built.
+    #[error(
+        "the viewer for browsers is not built: run lar-viewer/web/build.sh, or name the page that it makes by --viewer or \
+         LAR_VIEWER_PAGE"
+    )]
+    NoViewerPage,
+    /// A file is not the viewer for browsers.
+    #[error("{}: not the page that lar-viewer/web/build.sh makes", .path.display())]
+    NotAViewerPage {
+        /// The file.
+        path: PathBuf,
+    },
     /// The program was built without what the command needs.
     #[error("this build has no {feature}; build it with `--features {feature}`")]
     NotBuilt {

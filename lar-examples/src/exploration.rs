@@ -2,11 +2,11 @@
 
 use crate::CommandError;
 use lar_arrangement::planar::PlanarArrangement;
-use lar_arrangement::{Arrangement, Expression, FaceSide, FillRule};
+use lar_arrangement::{Arrangement, Closure, Expression, FaceSide, FillRule};
 use lar_core::{CellId, Chain, ChainError, FaceId};
 use lar_triangle::{FaceLoops, Triangulator};
 use lar_viewer::session::WrapStep;
-use lar_viewer::{CellData, FaceParent, Provenance, Queries};
+use lar_viewer::{Answers, CellData, FaceParent, Provenance, Queries};
 use std::collections::BTreeSet;
 
 /// What a window tells of the cells of an arrangement.
@@ -107,10 +107,33 @@ impl Explored {
     }
 }
 
+/// Faces of the largest cell whose gift wrapping is written down: the steps of a long one hold many chains.
+const MOST_WRAPPED: usize = 2000;
+
+/// What a page cannot ask the arrangement, asked before.
+pub(crate) fn answers(explored: &Explored) -> Answers {
+    let arrangement = &explored.arrangement;
+    let refusal = |solid| {
+        let is_open = arrangement.closure(solid) != Closure::Closed;
+        let refused = || arrangement.boolean(&Expression::solid(solid), FillRule::NonZero).err();
+        is_open.then(refused).flatten().map(|error| error.to_string())
+    };
+    let n_faces = |cell| arrangement.complex().boundary(3).outer_view(cell).map_or(0, |column| column.nnz());
+    let wrapping = |cell: usize| {
+        let steps = if n_faces(cell) <= MOST_WRAPPED { explored.wrapping(cell as u32) } else { Ok(vec![]) };
+        Answers::recorded(&steps.unwrap_or_default())
+    };
+    Answers {
+        refusals: (0..arrangement.n_solids()).map(refusal).collect(),
+        wrappings: (0..arrangement.n_cells()).map(wrapping).collect(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scenes;
+    use lar_core::Surface;
     use lar_viewer::CellRef;
 
     fn three_cubes() -> Arrangement {
@@ -156,5 +179,40 @@ mod tests {
         let union = explored.boolean(&format!("{:?} | {:?} | {:?}", names[0], names[1], names[2]));
         assert_eq!(union.unwrap().entries().len(), 7);
         assert!(explored.boolean("nothing of that name").is_err());
+    }
+
+    #[test]
+    fn what_is_written_down_is_what_the_arrangement_answers() {
+        let arrangement = three_cubes();
+        let data = cell_data(&arrangement).unwrap();
+        let explored = Explored::new(arrangement);
+        let answers = answers(&explored);
+        for cell in 0..8 {
+            assert_eq!(answers.wrapping(&data, cell), explored.wrapping(cell), "c{cell}");
+        }
+        let names: Vec<&str> = data.solids().iter().map(String::as_str).collect();
+        for text in ["{0}", "!{0} & {1}", "{0} ^ {1} ^ {2}", "({0} - {1}) | {2}"] {
+            let name = |text: String, i: usize| text.replace(&format!("{{{i}}}"), &format!("{:?}", names[i]));
+            let text = (0..3).fold(text.to_owned(), name);
+            let expression = Expression::parse(&text, &names).unwrap();
+            let cells =
+                answers.cells_where(&data, &expression.operands(), |inside| expression.evaluate(inside));
+            assert_eq!(cells, explored.boolean(&text), "{text}");
+        }
+    }
+
+    #[test]
+    fn open_operands_are_refused_in_the_same_words() {
+        let mut surfaces = scenes::surfaces(&scenes::three_cubes()).unwrap();
+        let mut open = Surface::new(surfaces[1].name.clone(), surfaces[1].points.clone());
+        (1..surfaces[1].n_faces()).for_each(|f| _ = open.push_face(surfaces[1].face(f), 1));
+        surfaces[1] = open;
+        let arrangement = lar_arrangement::arrange(&surfaces).unwrap();
+        let data = cell_data(&arrangement).unwrap();
+        let open = format!("{:?}", arrangement.solid_name(1));
+        let explored = Explored::new(arrangement);
+        let refused = explored.boolean(&open).unwrap_err();
+        assert!(refused.contains("bounds no solid"), "{refused}");
+        assert_eq!(answers(&explored).cells_where(&data, &[0, 1], |_| true), Err(refused));
     }
 }

@@ -29,6 +29,8 @@ pub mod figures;
 mod guide;
 mod mesh;
 mod output;
+#[cfg(feature = "viewer")]
+mod page;
 pub mod plane;
 #[cfg(feature = "viewer")]
 pub mod primitives;

@@ -431,6 +431,6 @@ fn completions_and_manual_pages() {
     done(&place, &["man", "--out", "pages"]);
     let names: Vec<String> =
         place.files().iter().skip(1).map(|p| p.file_name().unwrap().to_string_lossy().into_owned()).collect();
-    assert_eq!(names.len(), 13, "lar and twelve subcommands: {names:?}");
+    assert_eq!(names.len(), 14, "lar and thirteen subcommands: {names:?}");
     assert!(place.read("pages/lar-boolean.1").contains("difference"));
 }

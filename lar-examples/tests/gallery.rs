@@ -29,7 +29,7 @@ fn each_feature_has_its_test() {
         assert!(source.contains(&format!("fn {test}(")), "{file} has no test {test}");
         n += 1;
     }
-    assert_eq!(n, 26);
+    assert_eq!(n, 27);
 }
 
 /// The commands of the first table, and the pictures beside them.

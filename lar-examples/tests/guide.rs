@@ -11,7 +11,7 @@ use support::Place;
 
 /// What the shell knows when it runs a page: the programs under the names that the pages use. `cargo run` runs what was
 /// built with this test; other uses of cargo are this test's own caller. A window is asked for without a display, and
-/// must say so.
+/// must say so. The viewer for browsers is a page without its code.
 const PRELUDE: &str = r#"
 set -eu
 lar() {
@@ -70,10 +70,12 @@ fn run(page: &Path, size: &str) {
     let place = Place::with_cubes();
     std::os::unix::fs::symlink(workspace().join("fixtures"), place.path("fixtures")).expect("a link");
     place.write("cross.seg", "0 0 2 2\n0 2 2 0\n");
+    place.write("viewer.html", support::viewer_page());
     let programs = Path::new(env!("CARGO_BIN_EXE_lar")).parent().expect("a directory");
     let script = format!("{PRELUDE}{commands}");
     let mut shell = Command::new("sh");
-    let run = place.run(shell.args(["-c", &script]).env("PROGRAMS", programs).env("SIZE", size));
+    shell.args(["-c", &script]).env("PROGRAMS", programs).env("SIZE", size);
+    let run = place.run(shell.env("LAR_VIEWER_PAGE", "viewer.html"));
     // Without a graphics adapter the pictures are left out, unless there must be one.
     let has_no_adapter = run.code == 3 && std::env::var_os("LAR_REQUIRE_GPU").is_none();
     assert!(run.code == 0 || has_no_adapter, "{}:\n{}\n{}", page.display(), run.out, run.err);

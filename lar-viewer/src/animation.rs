@@ -70,13 +70,21 @@ impl Animation {
         Ok(self.encoder.write_image_data(image.pixels())?)
     }
 
+    /// The animation as a PNG file's bytes.
+    ///
+    /// # Errors
+    /// `Encode` when pictures are missing.
+    pub fn to_png(self) -> Result<Vec<u8>, ViewerError> {
+        self.encoder.finish()?;
+        Ok(self.bytes.0.take())
+    }
+
     /// Writes the file. An existing file is replaced only when the new one is complete.
     ///
     /// # Errors
     /// `Encode` when pictures are missing, or `File` with the path.
     pub fn write_png(self, path: impl AsRef<Path>) -> Result<(), ViewerError> {
-        self.encoder.finish()?;
-        let bytes = self.bytes.0.take();
+        let bytes = self.to_png()?;
         Ok(lar_core::atomic_write(path, |file| file.write_all(&bytes))?)
     }
 }

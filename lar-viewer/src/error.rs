@@ -152,6 +152,9 @@ pub enum ViewerError {
     /// Not a complex that can be shown.
     #[error(transparent)]
     Complex(#[from] lar_core::IntegrationError),
+    /// A text that is no view to be shown elsewhere, or a view that cannot be written as one.
+    #[error("not a view to be shared: {0}")]
+    SharedView(String),
     /// A picture file could not be written.
     #[error(transparent)]
     File(#[from] lar_core::FileError),

@@ -35,6 +35,7 @@ mod pick;
 mod primitives;
 mod scene;
 pub mod session;
+mod shared;
 mod text;
 mod view;
 #[cfg(feature = "window")]
@@ -60,9 +61,15 @@ pub use pick::Hit;
 pub use png;
 pub use primitives::{cuboid_shape, push_arrow, push_exploded_groups, surface_shape};
 pub use scene::{Appearance, CellRef, Drawable, Explosion, Group, GroupId, LEVELS, Scene};
+pub use session::{NoQueries, Queries};
+pub use shared::{Answers, SharedView, Wrapping};
 pub use text::{
     HorizontalAlign, Label, NUMBER_COLORS, TextStyle, VerticalAlign, push_numbers, text_model, text_segments,
 };
 pub use view::View;
+#[cfg(all(feature = "window", target_arch = "wasm32"))]
+pub use window::open;
 #[cfg(feature = "window")]
-pub use window::{Exhibit, Exploration, NoQueries, Queries, Source, explore, view};
+pub use window::{Exhibit, Exploration, Host, Source};
+#[cfg(all(feature = "window", not(target_arch = "wasm32")))]
+pub use window::{explore, view};

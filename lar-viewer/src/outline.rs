@@ -1,9 +1,11 @@
 //! Outlines: ink around what is seen of the model, of each solid or of each cell.
 
 use crate::{INK, Rgb, ViewerError};
+use serde::{Deserialize, Serialize};
 
 /// What is outlined.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Outlined {
     /// Everything as one, against the background.
     Model,

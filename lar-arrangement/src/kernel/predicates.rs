@@ -230,17 +230,7 @@ impl Geometry {
 
     /// Whether two facets lie in one plane.
     pub(crate) fn is_coplanar(&self, f: u32, g: u32) -> bool {
-        f == g
-            || (!self.is_across(f, g) && self.base(g).iter().all(|&p| self.side_of_point(p, f) == Sign::Zero))
-    }
-
-    /// Whether the planes of two facets are not parallel beyond doubt.
-    fn is_across(&self, f: u32, g: u32) -> bool {
-        let (m, n) = (self.normal(f), self.normal(g));
-        let cross = [m[1] * n[2] - m[2] * n[1], m[2] * n[0] - m[0] * n[2], m[0] * n[1] - m[1] * n[0]];
-        let size = |v: [f64; 3]| v[0].abs() + v[1].abs() + v[2].abs();
-        // Components of normals are off by 2^-52 of themselves: products and their differences by less than half of this.
-        size(cross) > size(m) * size(n) * 2f64.powi(-48)
+        f == g || self.base(g).iter().all(|&p| self.side_of_point(p, f) == Sign::Zero)
     }
 
     /// For two facets with parallel planes: whether their normals point the same way.

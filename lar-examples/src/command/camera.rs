@@ -66,9 +66,13 @@ impl CameraArguments {
     }
 
     /// Whether an eye is given.
-    #[cfg(feature = "window")]
     pub(crate) fn is_placed(&self) -> bool {
         self.eye.is_some()
+    }
+
+    /// Whether the height of the world that is shown is given.
+    pub(crate) fn has_height(&self) -> bool {
+        self.ortho.flatten().is_some()
     }
 }
 

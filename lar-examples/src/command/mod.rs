@@ -9,6 +9,7 @@
 //! lar boolean -e NAME=EXPR... INPUT... -o DIR [--format EXT] …
 //! lar render INPUT... -o OUT.png|.svg [--size WxH] [camera] [look]
 //! lar view INPUT... [camera] [look]
+//! lar export-html INPUT... -o OUT.html [--title TEXT] [--viewer PAGE.html] [camera] [look]
 //! lar info INPUT [--json PATH|-]
 //! lar measure INPUT... [--density D | NAME=D]... [--json PATH|-] [--as-given | --tolerance LENGTH] [--threads N]
 //! lar validate INPUT [--json PATH|-]
@@ -35,6 +36,7 @@ mod boolean;
 mod camera;
 mod clean;
 mod convert;
+mod export_html;
 mod info;
 mod input;
 mod measure;
@@ -74,6 +76,7 @@ enum Command {
     Boolean(boolean::Boolean),
     Render(picture::Render),
     View(view::Window),
+    ExportHtml(export_html::ExportHtml),
     Info(info::Info),
     Measure(measure::Measure),
     Validate(validate::Validate),
@@ -104,6 +107,7 @@ fn dispatch(arguments: Arguments, out: &mut dyn Write) -> Result<(), CommandErro
         Command::Boolean(boolean) => boolean.run(out),
         Command::Render(render) => render.run(out),
         Command::View(window) => window.run(),
+        Command::ExportHtml(export) => export.run(out),
         Command::Info(info) => info.run(out),
         Command::Measure(measure) => measure.run(out),
         Command::Validate(validate) => validate.run(out),

@@ -6,12 +6,16 @@ mod direction;
 mod draw;
 #[cfg(feature = "viewer")]
 mod look;
+#[cfg(feature = "viewer")]
+mod pose;
 
 #[cfg(feature = "viewer")]
-pub(super) use look::Look;
-
+pub(super) use draw::cells;
 #[cfg(feature = "viewer")]
-use super::camera::CameraArguments;
+pub(super) use look::{Background, Cut, Look};
+#[cfg(feature = "viewer")]
+pub(super) use pose::Pose;
+
 use super::input::Inputs;
 #[cfg(not(feature = "viewer"))]
 use crate::CommandError;
@@ -49,16 +53,13 @@ pub(crate) struct Render {
     size: Size,
     #[cfg(feature = "viewer")]
     #[command(flatten)]
-    camera: CameraArguments,
-    #[cfg(feature = "viewer")]
-    #[command(flatten)]
-    direction: direction::Direction,
+    pose: Pose,
     #[cfg(feature = "viewer")]
     #[command(flatten)]
     look: Look,
     #[cfg(feature = "viewer")]
     #[command(flatten)]
-    cut: look::Cut,
+    cut: Cut,
 }
 
 #[cfg(not(feature = "viewer"))]

@@ -89,6 +89,14 @@ impl Place {
     }
 }
 
+/// The page of the viewer with something else in the place of its code.
+pub(crate) fn viewer_page() -> String {
+    let page = include_str!("../../../lar-viewer/web/page.html");
+    let viewer = "<script id=\"lar-viewer\" type=\"application/octet-stream\">AAAA</script>";
+    assert_eq!(page.matches("<!--lar:viewer-->").count(), 1);
+    page.replace("<!--lar:viewer-->", viewer)
+}
+
 /// A file of the workspace's `fixtures`.
 pub(crate) fn fixture(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures").join(name)

@@ -13,6 +13,7 @@ mod matrices;
 
 use crate::{Orientation, ViewerError};
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 /// Vertical opening angle when nothing else is asked for, in radians.
 pub(crate) const DEFAULT_FOV: f64 = 0.45;
@@ -24,7 +25,8 @@ const FOVS: std::ops::RangeInclusive<f64> = 1e-3..=3.0;
 const DISTANCES: std::ops::RangeInclusive<f64> = 1e-90..=1e110;
 
 /// How depth becomes size.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Projection {
     /// Near things are larger.
     #[default]

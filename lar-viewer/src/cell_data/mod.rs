@@ -96,6 +96,16 @@ impl CellData {
         }
     }
 
+    /// All triangles, and where those of each face begin.
+    pub(crate) fn all_triangles(&self) -> (&[[u32; 3]], &[u32]) {
+        (&self.triangles, &self.offsets)
+    }
+
+    /// Where the cells come from.
+    pub(crate) fn provenance(&self) -> &Provenance {
+        &self.provenance
+    }
+
     /// The triangles of a face; none when they are not known.
     #[must_use]
     pub fn triangles(&self, face: u32) -> &[[u32; 3]] {

@@ -5,7 +5,9 @@
 
 use crate::ViewerError;
 use std::sync::{Arc, Mutex, PoisonError};
-use wgpu::{Adapter, Backends, DeviceType, DownlevelFlags, Instance, Limits};
+#[cfg(not(target_arch = "wasm32"))]
+use wgpu::Backends;
+use wgpu::{Adapter, DeviceType, DownlevelFlags, Instance, Limits};
 
 /// Storage buffers that the layer shaders use at once.
 const STORAGE_BUFFERS: u32 = 3;
@@ -166,7 +168,26 @@ impl Context {
     }
 }
 
+/// The adapter of the browser for a canvas.
+#[cfg(target_arch = "wasm32")]
+pub(crate) fn best_adapter(
+    instance: &Instance,
+    surface: Option<&wgpu::Surface<'_>>,
+) -> Result<Adapter, ViewerError> {
+    let options = wgpu::RequestAdapterOptions { compatible_surface: surface, ..Default::default() };
+    // With WebGL the answer is there at once.
+    let adapter = pollster::block_on(instance.request_adapter(&options));
+    let adapter = adapter.map_err(|e| ViewerError::NoAdapter { found: e.to_string() })?;
+    match lacking(&adapter, surface) {
+        None => Ok(adapter),
+        Some(reason) => {
+            Err(ViewerError::NoAdapter { found: format!("{} {reason}", adapter.get_info().name) })
+        }
+    }
+}
+
 /// The best adapter that, given a surface, can draw on it: one that sorts layers before any other.
+#[cfg(not(target_arch = "wasm32"))]
 pub(crate) fn best_adapter(
     instance: &Instance,
     surface: Option<&wgpu::Surface<'_>>,
@@ -195,6 +216,7 @@ pub(crate) fn best_adapter(
     Err(ViewerError::NoAdapter { found })
 }
 
+#[cfg(not(target_arch = "wasm32"))]
 fn rank(device_type: DeviceType) -> u8 {
     match device_type {
         DeviceType::DiscreteGpu => 0,

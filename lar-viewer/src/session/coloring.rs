@@ -1,9 +1,11 @@
 //! What the colours of cells mean.
 
 use crate::{CellData, CellRef, ColorMap, Coloring, Rgb};
+use serde::{Deserialize, Serialize};
 
 /// What the colours of cells mean.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum ColorBy {
     /// Each cell its own colour, in turn.
     #[default]

@@ -5,6 +5,7 @@
 //! hierarchical one with equal factors.
 
 use crate::{Explosion, LEVELS};
+use serde::{Deserialize, Serialize};
 
 /// How finely a complex is taken apart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -21,7 +22,8 @@ pub enum Pieces {
 }
 
 /// What an explosion stays in place around.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Center {
     /// The middle of the model.
     #[default]
@@ -31,7 +33,8 @@ pub enum Center {
 }
 
 /// What is pulled apart.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum ExplodeBy {
     /// Solids from each other, each with all its cells.
     Solids,
@@ -67,7 +70,8 @@ impl ExplodeBy {
 pub const LEVEL_NAMES: [&str; LEVELS] = ["solids", "cells", "faces", "edges"];
 
 /// Factors of an explosion, and what they move.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Explode {
     /// What is pulled apart.
     pub by: ExplodeBy,

@@ -8,8 +8,10 @@ mod command;
 mod explode;
 mod history;
 mod measuring;
+mod queries;
 mod replay;
 mod section;
+mod settings;
 mod stage;
 mod visibility;
 
@@ -17,8 +19,11 @@ pub use coloring::{ColorBy, scale_color, size_range};
 pub use command::{Command, Relation};
 pub use explode::{Center, Explode, ExplodeBy, LEVEL_NAMES, Pieces};
 pub use measuring::Measuring;
+pub(crate) use queries::NOT_WRAPPED;
+pub use queries::{NoQueries, Queries};
 pub use replay::{Replay, WrapStep};
 pub use section::{Normal, Section};
+pub use settings::Settings;
 pub use stage::Stage;
 pub use visibility::{Exterior, Visibility};
 

@@ -2,9 +2,11 @@
 
 use crate::{Bounds, Clip};
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 /// Direction of the clip plane's normal.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Normal {
     /// Along coordinate axis 0, 1 or 2.
     Axis(usize),
@@ -32,7 +34,8 @@ impl Normal {
 }
 
 /// A clip plane that may be switched off.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Section {
     /// Whether anything is cut away.
     pub on: bool,
@@ -54,18 +57,44 @@ impl Default for Section {
 }
 
 impl Section {
+    /// The clip plane that cuts this half space away from a model in this box; one that lies outside of the box stands at
+    /// its nearer end.
+    #[must_use]
+    pub fn at(clip: &Clip, bounds: &Bounds) -> Self {
+        let direction = DVec3::from(clip.normal);
+        let along = |k: usize| (0..3).all(|i| i == k || clip.normal[i] == 0.0);
+        let (normal, flipped) = match (0..3).find(|&k| along(k)) {
+            Some(k) => (Normal::Axis(k), clip.normal[k] < 0.0),
+            None => {
+                let [x, y, z] = clip.normal;
+                (Normal::Free { azimuth: y.atan2(x), elevation: z.atan2(x.hypot(y)) }, false)
+            }
+        };
+        let offset = clip.offset / direction.length() * if flipped { -1.0 } else { 1.0 };
+        let (low, high) = extent(normal, bounds);
+        let position = ((offset - low) / (high - low)).clamp(0.0, 1.0);
+        let position = if position.is_nan() { 0.5 } else { position };
+        Self { on: true, normal, position, flipped, whole_cells: clip.whole_cells }
+    }
+
     /// The half space that is cut away from a model in this box.
     #[must_use]
     pub fn clip(&self, bounds: &Bounds) -> Option<Clip> {
         let normal = DVec3::from(self.normal.direction());
-        let heights = bounds.corners().map(|c| normal.dot(c.into()));
-        let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+        let (low, high) = extent(self.normal, bounds);
         let offset = low + self.position * (high - low);
         let sign = if self.flipped { -1.0 } else { 1.0 };
         let mut clip = Clip::new((normal * sign).to_array(), offset * sign);
         clip.whole_cells = self.whole_cells;
         (self.on && offset.is_finite()).then_some(clip)
     }
+}
+
+/// The least and the greatest height along a normal.
+fn extent(normal: Normal, bounds: &Bounds) -> (f64, f64) {
+    let normal = DVec3::from(normal.direction());
+    let heights = bounds.corners().map(|c| normal.dot(c.into()));
+    heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)))
 }
 
 #[cfg(test)]
@@ -78,6 +107,25 @@ mod tests {
     fn check(section: Section, removed: [f64; 3], kept: [f64; 3]) {
         let clip = Section { on: true, ..section }.clip(&BOX).unwrap();
         assert!(clip.removes(removed) && !clip.removes(kept), "{clip:?}");
+    }
+
+    #[track_caller]
+    fn check_at(normal: [f64; 3], offset: f64) {
+        let clip = Clip::new(normal, offset);
+        let found = Section::at(&clip, &BOX).clip(&BOX).unwrap();
+        let length = DVec3::from(normal).length();
+        let same = |a: f64, b: f64| (a - b).abs() < 1e-12;
+        assert!(same(found.offset, offset / length), "{found:?}");
+        assert!((0..3).all(|k| same(found.normal[k], normal[k] / length)), "{found:?}");
+    }
+
+    #[test]
+    fn clip_planes_are_found_again() {
+        check_at([1.0, 0.0, 0.0], 0.25);
+        check_at([0.0, 0.0, -2.0], -6.0);
+        check_at([1.0, -2.0, 0.5], -1.0);
+        let beyond = Section::at(&Clip::new([0.0, 1.0, 0.0], 9.0).whole_cells(), &BOX);
+        assert_eq!((beyond.position, beyond.whole_cells, beyond.on), (1.0, true, true));
     }
 
     #[test]

@@ -1,12 +1,26 @@
 //! Which cells are shown, and the way back.
 
 use crate::{CellData, CellRef};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Sets of cells, one for each dimension. Copies share what they have in common, so that a history of them is cheap.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(from = "[Vec<u32>; 4]", into = "[Vec<u32>; 4]")]
 struct CellSets([Arc<BTreeSet<u32>>; 4]);
+
+impl From<[Vec<u32>; 4]> for CellSets {
+    fn from(sets: [Vec<u32>; 4]) -> Self {
+        Self(sets.map(|set| Arc::new(set.into_iter().collect())))
+    }
+}
+
+impl From<CellSets> for [Vec<u32>; 4] {
+    fn from(CellSets(sets): CellSets) -> Self {
+        sets.map(|set| set.iter().copied().collect())
+    }
+}
 
 impl CellSets {
     fn contains(&self, cell: CellRef) -> bool {
@@ -41,7 +55,8 @@ impl CellSets {
 }
 
 /// How the exterior cell is shown.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Exterior {
     /// Not at all.
     #[default]
@@ -68,7 +83,8 @@ impl Exterior {
 }
 
 /// What is shown: dimensions, single cells hidden, some cells alone, the exterior.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Visibility {
     /// Whether vertices, edges, faces, cells are drawn.
     pub layers: [bool; 4],

@@ -1,90 +1,97 @@
 //! The event loop's side: one window from its creation to its end.
 
 use super::controls::Controls;
-use super::exhibit::Exploration;
+use super::host::Host;
 use super::loader::{Loaded, Loader};
 use super::painter::Painter;
 use super::subject::Subject;
-use crate::{Scene, View, ViewerError};
+use crate::session::{Queries, Session};
+use crate::{Camera, Scene, View, ViewerError};
 use std::sync::Arc;
-use std::time::Instant;
+use web_time::Instant;
 use winit::application::ApplicationHandler;
+#[cfg(not(target_arch = "wasm32"))]
 use winit::dpi::LogicalSize;
 use winit::event::{StartCause, WindowEvent};
-use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, OwnedDisplayHandle};
-use winit::window::{Window, WindowId};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, OwnedDisplayHandle};
+use winit::window::{Window, WindowAttributes, WindowId};
 
 /// Size of a new window, in logical pixels.
+#[cfg(not(target_arch = "wasm32"))]
 const SIZE: LogicalSize<u32> = LogicalSize::new(1280, 780);
 
 /// What a window is opened on.
-pub(crate) enum Contents {
-    Scene(Box<(Scene, View)>),
-    Complex(Box<Exploration>),
-}
-
-/// What a window begins with.
-struct Waiting {
+pub(crate) struct Contents {
     view: View,
     subject: Subject,
     /// Nobody chose the camera.
     fit: bool,
 }
 
-/// The state of [`super::view`] and [`super::explore`].
+impl Contents {
+    /// A scene as it is.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) fn scene(scene: Scene, view: View) -> Self {
+        Self { view, subject: Subject::scene(scene), fit: false }
+    }
+
+    /// A complex, seen from a camera, which may be fitted first.
+    pub(crate) fn complex(
+        session: Session,
+        queries: Box<dyn Queries>,
+        camera: Camera,
+        fit: bool,
+    ) -> Result<Self, ViewerError> {
+        camera.validate()?;
+        let view = View { camera, ..View::default() };
+        Ok(Self { view, subject: Subject::complex(session, queries)?, fit })
+    }
+}
+
+/// The state of a window.
 pub(crate) struct App {
     title: String,
     display: OwnedDisplayHandle,
-    /// The view and the subject, until there is a window to show them in.
-    waiting: Option<Waiting>,
+    /// What is shown and where, until there is a window to show it in.
+    waiting: Option<(Contents, Box<dyn Host>)>,
     loader: Option<Loader>,
     painter: Option<Painter>,
-    result: Result<(), ViewerError>,
+    /// Is told the error that closes the window.
+    failed: Box<dyn FnMut(ViewerError)>,
 }
 
 impl App {
+    /// A window that is opened when the loop of events runs; `failed` is told the error that closes it.
     pub(crate) fn new(
         contents: Contents,
         title: String,
-        event_loop: &EventLoop<Loaded>,
-    ) -> Result<Self, ViewerError> {
-        let (waiting, loader) = match contents {
-            Contents::Scene(shown) => {
-                (Waiting { view: shown.1, subject: Subject::scene(shown.0), fit: false }, None)
-            }
-            Contents::Complex(exploration) => {
-                let Exploration { session, queries, source, files, camera, .. } = *exploration;
-                let subject = Subject::complex(session, queries)?;
-                let view = View { camera: camera.unwrap_or_default(), ..View::default() };
-                let proxy = event_loop.create_proxy();
-                // Without a loop there is no one to tell.
-                let loader = Loader::start(source, files, move |loaded| _ = proxy.send_event(loaded));
-                (Waiting { view, subject, fit: camera.is_none() }, Some(loader))
-            }
-        };
-        let display = event_loop.owned_display_handle();
-        Ok(Self { title, display, waiting: Some(waiting), loader, painter: None, result: Ok(()) })
+        display: OwnedDisplayHandle,
+        host: Box<dyn Host>,
+        failed: Box<dyn FnMut(ViewerError)>,
+    ) -> Self {
+        Self { title, display, waiting: Some((contents, host)), loader: None, painter: None, failed }
     }
 
-    /// The error that closed the window, if one did.
-    pub(crate) fn into_result(self) -> Result<(), ViewerError> {
-        self.result
+    /// With a loader of files that change or are dropped on the window.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) fn with_loader(self, loader: Loader) -> Self {
+        Self { loader: Some(loader), ..self }
     }
 
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<(), ViewerError> {
-        let Some(Waiting { view, subject, fit }) = self.waiting.take() else { return Ok(()) };
-        let attributes = Window::default_attributes().with_title(self.title.as_str()).with_inner_size(SIZE);
+        let Some((Contents { view, subject, fit }, host)) = self.waiting.take() else { return Ok(()) };
+        let attributes = placed(Window::default_attributes().with_title(self.title.as_str()));
         let window = event_loop.create_window(attributes).map_err(|e| ViewerError::Window(e.to_string()))?;
         let controls = |adapter| Controls::new(view, subject, adapter, fit);
-        let painter = Painter::new(Arc::new(window), &self.display, controls)?;
+        let painter = Painter::new(Arc::new(window), &self.display, host, controls)?;
         painter.window().request_redraw();
         self.painter = Some(painter);
         Ok(())
     }
 
     fn close_on_error(&mut self, event_loop: &ActiveEventLoop, result: Result<(), ViewerError>) {
-        if result.is_err() {
-            self.result = result;
+        if let Err(error) = result {
+            (self.failed)(error);
             event_loop.exit();
         }
     }
@@ -92,7 +99,8 @@ impl App {
     fn redraw(&mut self, event_loop: &ActiveEventLoop) -> Result<(), ViewerError> {
         let Some(painter) = &mut self.painter else { return Ok(()) };
         let after = painter.frame()?;
-        if after.close {
+        // A page stays until the browser closes it.
+        if after.close && cfg!(not(target_arch = "wasm32")) {
             event_loop.exit();
         }
         if let (Some(loader), false) = (&self.loader, after.load.is_empty()) {
@@ -103,6 +111,18 @@ impl App {
         }
         Ok(())
     }
+}
+
+/// A window of its own.
+#[cfg(not(target_arch = "wasm32"))]
+fn placed(attributes: WindowAttributes) -> WindowAttributes {
+    attributes.with_inner_size(SIZE)
+}
+
+/// A canvas at the end of the page, whose style says how large it is.
+#[cfg(target_arch = "wasm32")]
+fn placed(attributes: WindowAttributes) -> WindowAttributes {
+    winit::platform::web::WindowAttributesExtWebSys::with_append(attributes, true)
 }
 
 impl ApplicationHandler<Loaded> for App {

@@ -87,9 +87,9 @@ fn stamps(files: &[PathBuf]) -> Vec<Stamp> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::exhibit::NoQueries;
     use super::*;
     use crate::CellData;
+    use crate::session::NoQueries;
     use lar_core::{ChainComplex, cuboid_grid};
 
     /// Reads the number of cubes in a row; "panic" panics.

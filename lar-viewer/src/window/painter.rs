@@ -2,13 +2,14 @@
 
 use super::capture::{self, Recording};
 use super::controls::{Asked, Click, Controls};
+use super::host::Host;
 use super::panels::Capture;
 use super::picture::Picture;
 use super::surface::{self, Surface};
 use crate::gpu::context::{Context, best_adapter};
 use crate::gpu::renderer::Renderer;
 use crate::{View, ViewerError};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 use winit::event::WindowEvent;
@@ -25,8 +26,7 @@ pub(crate) struct Painter {
     egui_renderer: egui_wgpu::Renderer,
     shown: egui::TextureId,
     recording: Option<Recording>,
-    /// Kept open, since X11 hands out what was copied only as long as someone holds it; `None` where there is none.
-    clipboard: Option<arboard::Clipboard>,
+    host: Box<dyn Host>,
 }
 
 /// What comes after a frame.
@@ -43,6 +43,7 @@ impl Painter {
     pub(crate) fn new(
         window: Arc<Window>,
         display: &OwnedDisplayHandle,
+        host: Box<dyn Host>,
         controls: impl FnOnce(String) -> Controls,
     ) -> Result<Self, ViewerError> {
         let (instance, surface) = Surface::unconfigured(&window, display)?;
@@ -60,17 +61,8 @@ impl Painter {
         let shown = egui_renderer.register_native_texture(device, &first, wgpu::FilterMode::Nearest);
         let egui = egui_state(&window, &picture.renderer.context);
         let size = window.inner_size();
-        let mut painter = Self {
-            window,
-            surface,
-            picture,
-            controls,
-            egui,
-            egui_renderer,
-            shown,
-            recording: None,
-            clipboard: arboard::Clipboard::new().ok(),
-        };
+        let mut painter =
+            Self { window, surface, picture, controls, egui, egui_renderer, shown, recording: None, host };
         painter.resize(size.width, size.height);
         Ok(painter)
     }
@@ -175,19 +167,18 @@ impl Painter {
 
     /// Saves a picture, or begins or goes on with a turn.
     fn save(&mut self, capture: Option<Capture>, view: &View, size: [u32; 2]) -> Result<(), ViewerError> {
-        let here = Path::new("");
         match capture {
             Some(Capture::Screenshot) => {
-                let path = capture::screenshot(&self.picture.read(view, size)?, here)?;
-                self.controls.message = format!("saved {}", path.display());
+                let name = capture::screenshot(&self.picture.read(view, size)?, &mut *self.host)?;
+                self.controls.message = format!("saved {name}");
             }
-            Some(Capture::Frames) => self.recording = Some(Recording::frames(view, size, here)),
-            Some(Capture::Animation) => self.recording = Some(Recording::animation(view, size, here)?),
+            Some(Capture::Frames) => self.recording = Some(Recording::frames(view, size, &*self.host)),
+            Some(Capture::Animation) => self.recording = Some(Recording::animation(view, size)?),
             Some(Capture::Camera) | None => {}
         }
         if let Some(recording) = &mut self.recording {
             let (view, size) = recording.next();
-            let (message, last) = recording.push(&self.picture.read(&view, size)?)?;
+            let (message, last) = recording.push(&self.picture.read(&view, size)?, &mut *self.host)?;
             self.controls.message = message;
             if last {
                 self.recording = None;
@@ -196,12 +187,11 @@ impl Painter {
         Ok(())
     }
 
-    /// Puts what was copied on the clipboard of the system. Where that is refused, the text can still be read below the
-    /// picture.
+    /// Puts what was copied on the clipboard of the system.
     fn copy(&mut self, output: &egui::PlatformOutput) {
         for command in &output.commands {
-            if let (egui::OutputCommand::CopyText(text), Some(clipboard)) = (command, &mut self.clipboard) {
-                let _ = clipboard.set_text(text.as_str());
+            if let egui::OutputCommand::CopyText(text) = command {
+                self.host.copy(text);
             }
         }
     }

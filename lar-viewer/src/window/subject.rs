@@ -1,7 +1,7 @@
 //! What is shown: a scene as it is, or a complex in a session, taken apart as the session asks.
 
-use super::exhibit::{Exhibit, Queries};
-use crate::session::{Command, Session, Shape, Stage};
+use super::exhibit::Exhibit;
+use crate::session::{Command, Queries, Session, Shape, Stage};
 use crate::{Appearance, Bounds, Camera, Scene, View, ViewerError};
 use std::sync::Arc;
 

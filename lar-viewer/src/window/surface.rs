@@ -22,7 +22,11 @@ impl Surface {
         display: &OwnedDisplayHandle,
     ) -> Result<(wgpu::Instance, wgpu::Surface<'static>), ViewerError> {
         let handle = Box::new(display.clone());
-        let descriptor = wgpu::InstanceDescriptor::new_with_display_handle(handle).with_env();
+        let mut descriptor = wgpu::InstanceDescriptor::new_with_display_handle(handle).with_env();
+        if cfg!(target_arch = "wasm32") {
+            // Browsers do not let a page wait for a fence; reading a buffer back waits all the same.
+            descriptor.backend_options.gl.fence_behavior = wgpu::GlFenceBehavior::AutoFinish;
+        }
         let instance = wgpu::Instance::new(descriptor);
         let surface = on(&instance, window)?;
         Ok((instance, surface))

@@ -6,11 +6,11 @@ use crate::bar::Bar;
 use crate::output::check_file;
 use crate::plane::{self, Shapes, Source};
 use crate::{CommandError, exploration};
-use lar_arrangement::Arranger;
 use lar_arrangement::planar::Dangling;
+use lar_arrangement::{Arrangement, Arranger};
 use lar_core::atomic_write;
 use lar_viewer::session::{Session, Stage};
-use lar_viewer::{Camera, CellData, LineDrawing, OffscreenRenderer, Scene, View};
+use lar_viewer::{CellData, LineDrawing, OffscreenRenderer, Scene, View};
 use std::io::Write;
 use std::num::NonZeroUsize;
 
@@ -75,33 +75,32 @@ impl Render {
             background_opacity,
             ..View::default()
         };
-        let fitted = |lens: Camera| {
-            let orientation = self.direction.orientation().unwrap_or(lens.orientation);
-            View { camera: Camera { orientation, ..lens }, ..view }.fit(scene, aspect).camera
-        };
-        Ok(View { camera: self.camera.camera(fitted)?, ..view })
+        Ok(View { camera: self.pose.camera(&view, scene, aspect)?, ..view })
     }
 }
 
 /// The session that the options ask for, and its scene.
 fn staged(inputs: &Inputs, look: &Look) -> Result<(Session, Scene), CommandError> {
-    let session = look.session(cells(inputs)?);
+    let session = look.session(cells(inputs, |_| ())?.0);
     let scene = Stage::new(session.data(), session.pieces())?.scene(&session)?;
     Ok((session, scene))
 }
 
-/// The cells of the inputs' arrangement.
-fn cells(inputs: &Inputs) -> Result<CellData, CommandError> {
+/// The cells of the inputs' arrangement, and what `ask` wants to know of it where it is one of space.
+pub(crate) fn cells<R>(
+    inputs: &Inputs,
+    ask: impl FnOnce(Arrangement) -> R,
+) -> Result<(CellData, Option<R>), CommandError> {
     let drawings = inputs.drawings()?;
     if drawings.is_empty() {
         let surfaces = inputs.read()?.surfaces;
         let bar = Bar::new();
         let arrangement = Arranger::new().progress(&|progress| bar.show(progress)).arrange(&surfaces)?;
         drop(bar);
-        return exploration::cell_data(&arrangement);
+        return Ok((exploration::cell_data(&arrangement)?, Some(ask(arrangement))));
     }
     let sources = drawings.into_iter().map(|(name, path)| Source { name, path }).collect();
     let drawing = Shapes::read(sources, TOLERANCE)?.drawing();
     let threads = std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
-    exploration::plane_data(&plane::arranged(&drawing, threads, Dangling::Keep)?)
+    Ok((exploration::plane_data(&plane::arranged(&drawing, threads, Dangling::Keep)?)?, None))
 }

@@ -52,7 +52,7 @@ pub(crate) struct Look {
 
 /// A clip plane.
 #[derive(Clone, Copy, Debug, clap::Args)]
-pub(super) struct Cut {
+pub(crate) struct Cut {
     /// Cuts away what lies beyond a plane: x=0.5 keeps x ≤ 0.5, -x=0.5 the other side; or the normal and its product with
     /// a point of the plane.
     #[arg(long, value_name = "AXIS=AT | NX,NY,NZ,D", allow_hyphen_values = true)]

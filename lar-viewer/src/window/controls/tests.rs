@@ -1,8 +1,7 @@
 //! The interface without a window: egui's panels driven by role, label, mouse and keys.
 
 use super::*;
-use crate::session::{Session, WrapStep};
-use crate::window::exhibit::Queries;
+use crate::session::{Queries, Session, WrapStep};
 use crate::{CellData, Drawable, Projection, Provenance, Scene, View};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
 use egui_kittest::{Harness, kittest::Queryable};

@@ -1,8 +1,7 @@
 //! Boolean expressions, and the replay of gift wrapping.
 
 use super::Texts;
-use crate::session::{Command, Highlight, Session};
-use crate::window::exhibit::Queries;
+use crate::session::{Command, Highlight, Queries, Session};
 use egui::{Slider, TextEdit, Ui};
 
 /// The expression field with its result, and the replay of the selected cell.

@@ -64,12 +64,15 @@ pub(crate) fn toolbar(
             choice.response.labelled_by(label.id);
             ui.separator();
         }
-        for (text, hint, what) in [
+        let captures = [
             ("Screenshot", "S: the picture as PNG", Capture::Screenshot),
             ("Turn: APNG", "a full turn as an animation", Capture::Animation),
             ("Turn: PNGs", "a full turn as numbered pictures", Capture::Frames),
             ("Copy camera", "as arguments of lar render", Capture::Camera),
-        ] {
+        ];
+        // Browsers ask before a page may save many files.
+        let offered = |what: Capture| cfg!(not(target_arch = "wasm32")) || what != Capture::Frames;
+        for (text, hint, what) in captures.into_iter().filter(|c| offered(c.2)) {
             if ui.button(text).on_hover_text(hint).clicked() {
                 capture = Some(what);
             }
