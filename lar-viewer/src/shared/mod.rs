@@ -115,7 +115,8 @@ impl SharedView {
             format: FORMAT.to_owned(),
             version: VERSION,
             title: self.title.clone(),
-            complex: RawValue::from_string(data.complex().to_json().map_err(refused)?).map_err(refused)?,
+            complex: RawValue::from_string(data.complex().to_json().map_err(|e| refused(&e))?)
+                .map_err(|e| refused(&e))?,
             exterior: data.has_exterior(),
             triangles: Triangles { corners: corners.to_vec(), offsets: offsets.to_vec() },
             solids: names.zip(refusals).map(|(name, refusal)| Solid { name, refusal }).collect(),
@@ -125,7 +126,7 @@ impl SharedView {
             settings: self.session.settings(),
             camera: Seen::new(&self.camera, self.is_fitted),
         };
-        serde_json::to_string(&record).map_err(refused)
+        serde_json::to_string(&record).map_err(|e| refused(&e))
     }
 
     /// A view from its JSON. O(size · log).
@@ -134,14 +135,14 @@ impl SharedView {
     /// `SharedView` when the text is malformed, of another format or version, or holds no complex; as [`CellData`] when
     /// the complex cannot be shown; `InvalidView` when the camera cannot be.
     pub fn from_json(text: &str) -> Result<Self, ViewerError> {
-        let Header { format, version } = serde_json::from_str(text).map_err(refused)?;
+        let Header { format, version } = serde_json::from_str(text).map_err(|e| refused(&e))?;
         if format != FORMAT || version != VERSION {
-            return Err(refused(format!(
+            return Err(refused(&format!(
                 "format is {format:?} of version {version}, not {FORMAT:?} of version {VERSION}"
             )));
         }
-        let record: Record = serde_json::from_str(text).map_err(refused)?;
-        let complex = ChainComplex::from_json(record.complex.get()).map_err(refused)?;
+        let record: Record = serde_json::from_str(text).map_err(|e| refused(&e))?;
+        let complex = ChainComplex::from_json(record.complex.get()).map_err(|e| refused(&e))?;
         let (solids, refusals) = record.solids.into_iter().map(|s| (s.name, s.refusal)).unzip();
         let parent = |(solid, face, sign)| FaceParent { solid, face, sign };
         let parents_of_face = record.parents.into_iter().map(|p| p.into_iter().map(parent).collect());
@@ -175,7 +176,7 @@ impl Seen {
     }
 }
 
-fn refused(reason: impl ToString) -> ViewerError {
+fn refused(reason: &dyn std::fmt::Display) -> ViewerError {
     ViewerError::SharedView(reason.to_string())
 }
 

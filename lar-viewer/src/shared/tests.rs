@@ -69,7 +69,8 @@ fn texts_that_are_no_views_are_refused() {
 #[test]
 fn cells_where_an_expression_holds() {
     let (data, answers) = (data(), view().answers);
-    let cells = |operands: &[usize], holds: &dyn Fn(&dyn Fn(usize) -> bool) -> bool| {
+    type Holds = dyn Fn(&dyn Fn(usize) -> bool) -> bool;
+    let cells = |operands: &[usize], holds: &Holds| {
         let chain = answers.cells_where(&data, operands, holds)?;
         Ok::<_, String>(chain.entries().iter().map(|entry| entry.0).collect::<Vec<_>>())
     };
