@@ -80,5 +80,5 @@ fn each_picture_is_there() {
         assert!(root().join("docs").join(picture).is_file(), "{picture}");
         n += 1;
     }
-    assert_eq!(n, 10);
+    assert_eq!(n, 11);
 }

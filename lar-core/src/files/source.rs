@@ -143,8 +143,7 @@ impl<'a> Source<'a> {
     fn advance(&mut self) -> Result<bool, MeshFileError> {
         let mut bytes = std::mem::take(&mut self.text).into_bytes();
         bytes.clear();
-        let read = (&mut *self.input).take(LONGEST_LINE).read_until(b'\n', &mut bytes);
-        let n = read.map_err(|source| self.failure(source))?;
+        let n = self.read_line(&mut bytes).map_err(|source| self.failure(source))?;
         if n as u64 == LONGEST_LINE {
             return Err(self.at_line().error(Problem::LongLine { limit: LONGEST_LINE }));
         }
@@ -157,6 +156,23 @@ impl<'a> Source<'a> {
         let lossy = |error: FromUtf8Error| String::from_utf8_lossy(error.as_bytes()).into_owned();
         self.text = String::from_utf8(bytes).unwrap_or_else(lossy);
         Ok(n > 0)
+    }
+
+    /// Reads up to the end of the line, or as much as a line may have. What is too long for the memory is an error.
+    fn read_line(&mut self, bytes: &mut Vec<u8>) -> io::Result<usize> {
+        const CHUNK: usize = 1 << 16;
+        let longest = LONGEST_LINE as usize;
+        loop {
+            let left = longest - bytes.len();
+            if bytes.capacity() - bytes.len() < CHUNK.min(left) {
+                let more = bytes.len().max(CHUNK).min(left);
+                bytes.try_reserve_exact(more).map_err(|_| io::ErrorKind::OutOfMemory)?;
+            }
+            let n = (&mut *self.input).take(CHUNK.min(left) as u64).read_until(b'\n', bytes)?;
+            if n < CHUNK || bytes.ends_with(b"\n") {
+                return Ok(bytes.len());
+            }
+        }
     }
 
     fn text(&self) -> Result<(At<'a>, &str), MeshFileError> {
