@@ -74,6 +74,7 @@ impl Batch {
     }
 
     /// The arrays of a scene that is drawn together with another, which is placed like this.
+    #[cfg(feature = "window")]
     pub(crate) fn beside(scene: &Scene, placement: Placement, buffer_bytes: u64) -> Self {
         Self::placed(scene, placement, Extents::about(scene, Some(placement.center)), buffer_bytes)
     }
