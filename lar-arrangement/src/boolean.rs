@@ -86,6 +86,9 @@ impl From<Cancelled> for BooleanError {
 /// Steps of an expression that are evaluated between two looks at a request to stop.
 const STEPS_A_CHUNK: usize = 1 << 14;
 
+/// Cells that an expression is evaluated for at once, a bit each.
+const WORD: usize = 64;
+
 fn join(p: &[f64; 3]) -> String {
     format!("{}, {}, {}", p[0], p[1], p[2])
 }
@@ -105,7 +108,8 @@ impl Arrangement {
         rule.is_inside(self.winding(cell, solid))
     }
 
-    /// The cells where an expression holds. O(cells · length of the expression).
+    /// The cells where an expression holds: bits of 64 cells at once. O(cells / 64 · length of the expression + solids around
+    /// all cells).
     ///
     /// ```
     /// use lar_arrangement::{arrange, Expression, FillRule};
@@ -137,11 +141,23 @@ impl Arrangement {
         for solid in expression.operands() {
             self.check_operand(solid, rule)?;
         }
-        let (mut stack, mut inside) = (Vec::new(), Vec::with_capacity(self.n_cells()));
-        let cells_a_chunk = STEPS_A_CHUNK / expression.len() + 1;
-        course.walk(self.n_cells(), cells_a_chunk, |cell| {
-            let is_inside = |solid| self.is_inside(CellId(cell as u32), solid, rule);
-            inside.push(expression.evaluate_with(&mut stack, is_inside));
+        let (mut stack, mut bits) = (Vec::new(), vec![0u64; self.n_solids()]);
+        let mut inside = Vec::with_capacity(self.n_cells());
+        let words_a_chunk = STEPS_A_CHUNK / expression.len() + 1;
+        course.walk(self.n_cells().div_ceil(WORD), words_a_chunk, |word| {
+            let cells = word * WORD..((word + 1) * WORD).min(self.n_cells());
+            let windings = || {
+                cells
+                    .clone()
+                    .zip(0..)
+                    .flat_map(|(cell, bit)| self.windings.of_cell(cell).iter().map(move |w| (w, bit)))
+            };
+            for (&(solid, winding), bit) in windings() {
+                bits[solid as usize] |= u64::from(rule.is_inside(winding)) << bit;
+            }
+            let holds = expression.evaluate_bits(&mut stack, |solid| bits[solid]);
+            inside.extend((0..cells.len()).map(|bit| holds >> bit & 1 == 1));
+            windings().for_each(|(&(solid, _), _)| bits[solid as usize] = 0);
         })?;
         course.finish(times);
         course.go_on()?;

@@ -111,7 +111,7 @@ impl<const D: usize> Block<D> {
 
 /// A box in 32 bits, rounded outwards.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Near<const D: usize> {
+struct Near<const D: usize> {
     lo: [f32; D],
     hi: [f32; D],
 }
@@ -173,11 +173,9 @@ fn along_curve<const D: usize>(
 /// Items in the given order, but each group where its first item is, and the places that they had, by item; the
 /// latter empty when there are no groups. O(n).
 fn side_by_side(items: &[u32], group_of: impl Fn(u32) -> u32) -> (Vec<u32>, Vec<u32>) {
-    let n_groups = items.iter().map(|&item| group_of(item).wrapping_add(1)).max().unwrap_or(0);
-    if n_groups == 0 {
-        return (items.to_vec(), Vec::new());
-    }
-    let mut place_of_group = vec![None; n_groups as usize];
+    let groups = items.iter().map(|&item| group_of(item)).filter(|&group| group != NO_GROUP);
+    let Some(last) = groups.max() else { return (items.to_vec(), Vec::new()) };
+    let mut place_of_group = vec![None; last as usize + 1];
     let (mut places, mut n) = (Vec::with_capacity(items.len()), 0);
     for &item in items {
         let known = match group_of(item) {

@@ -51,7 +51,9 @@ impl Charts {
         if !soup.geometry.is_on_grid() || n < SMALL as usize {
             return Ok(Self::none(n));
         }
-        // A margin of one step covers the rounding of products of differences of 41 bits.
+        // Points within the distance along both axes are within √2 of it. Differences of coordinates are exact and have 41
+        // bits; a product of them is off by a 2^-53rd of it, so a cross product over a length by less than one step: four
+        // are more than enough.
         let margin = 2.0 * distance + 4.0;
         let looks = looks(soup, margin);
         let (mut of_facet, axes) = candidates(soup, &looks);

@@ -71,7 +71,7 @@ impl<'a> Evaluator<'a> {
         self
     }
 
-    /// The cells where an expression holds. O(cells × length of the expression × log of the solids around a cell).
+    /// The cells where an expression holds. O(cells / 64 · length of the expression + solids around all cells).
     ///
     /// # Errors
     /// An operand of the expression that is open, or not oriented with a rule that needs it, or does not exist; when the

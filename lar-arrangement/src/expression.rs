@@ -33,12 +33,13 @@ impl Operator {
         })
     }
 
-    fn apply(self, a: bool, b: bool) -> bool {
+    /// For 64 points at once.
+    fn apply(self, a: u64, b: u64) -> u64 {
         match self {
-            Operator::Union => a || b,
-            Operator::SymmetricDifference => a != b,
-            Operator::Difference => a && !b,
-            Operator::Intersection => a && b,
+            Operator::Union => a | b,
+            Operator::SymmetricDifference => a ^ b,
+            Operator::Difference => a & !b,
+            Operator::Intersection => a & b,
         }
     }
 }
@@ -182,7 +183,7 @@ impl Expression {
 
     /// The value where `inside` says which solids contain the point. O(length).
     pub fn evaluate(&self, inside: impl Fn(usize) -> bool) -> bool {
-        self.evaluate_with(&mut Vec::new(), inside)
+        self.evaluate_bits(&mut Vec::new(), |solid| u64::from(inside(solid))) & 1 == 1
     }
 
     /// Number of operands and operators.
@@ -190,8 +191,8 @@ impl Expression {
         self.program.len()
     }
 
-    /// The same with a stack to be used again.
-    pub(crate) fn evaluate_with(&self, stack: &mut Vec<bool>, inside: impl Fn(usize) -> bool) -> bool {
+    /// The same for 64 points at once, a bit each, with a stack to be used again.
+    pub(crate) fn evaluate_bits(&self, stack: &mut Vec<u64>, inside: impl Fn(usize) -> u64) -> u64 {
         const BALANCED: &str = "programs are balanced by construction";
         stack.clear();
         for step in &self.program {

@@ -1,5 +1,6 @@
 //! The boundary operators from edges, loops and cells.
 
+use crate::counting::joined;
 use crate::merge::Merged;
 use crate::parallel;
 use lar_core::{Cells, ChainComplex, Operator};
@@ -19,62 +20,33 @@ pub(crate) fn boundary_1(n_vertices: usize, edges: Vec<[u32; 2]>) -> Operator {
 
 pub(crate) fn boundary_2(n_edges: usize, faces: &Merged) -> Operator {
     let n_faces = faces.face_loops.len() - 1;
-    let parts = parallel::map(parallel::n_threads(), |part| {
-        let range = parallel::part_of(n_faces, part);
-        let mut columns =
-            Columns::with_capacity(faces.loops.indices().len() * range.len() / n_faces.max(1) + 8);
-        range.for_each(|face| {
-            columns.push(faces.face_loops[face] as usize..faces.face_loops[face + 1] as usize, faces);
-        });
-        columns
-    });
-    let Columns { ends, edges, signs, .. } = Columns::joined(parts);
-    ChainComplex::operator_from_columns(n_edges, Cells::from_parts(ends, edges), signs)
+    let parts = parallel::map(parallel::n_threads(), |part| columns(parallel::part_of(n_faces, part), faces));
+    let (offsets, entries) = joined(parts);
+    let signs = entries.iter().map(|h| 1 - 2 * (h % 2) as i8).collect();
+    let edges = entries.into_iter().map(|h| h / 2).collect();
+    ChainComplex::operator_from_columns(n_edges, Cells::from_parts(offsets, edges), signs)
 }
 
-/// Columns of ∂2.
-struct Columns {
-    /// Where each column ends, after a 0.
-    ends: Vec<u32>,
-    edges: Vec<u32>,
-    signs: Vec<i8>,
-    /// The half-edges of a column.
-    scratch: Vec<u32>,
-}
-
-impl Columns {
-    fn with_capacity(n: usize) -> Self {
-        let (edges, signs) = (Vec::with_capacity(n), Vec::with_capacity(n));
-        Self { ends: vec![0], edges, signs, scratch: Vec::new() }
-    }
-
-    /// Adds the face with some loops. An edge that stands in them in both directions is no boundary.
-    fn push(&mut self, loops: Range<usize>, faces: &Merged) {
-        let offsets = faces.loops.offsets();
-        let half_edges = &faces.loops.indices()[offsets[loops.start] as usize..offsets[loops.end] as usize];
-        self.scratch.clear();
-        self.scratch.extend_from_slice(half_edges);
-        self.scratch.sort_unstable();
-        for same in self.scratch.chunk_by(|a, b| a / 2 == b / 2) {
+/// The columns of ∂2 for some faces: half-edges of their loops, ascending. An edge that stands in a face in both directions
+/// is no boundary.
+fn columns(range: Range<usize>, faces: &Merged) -> (Vec<u32>, Vec<u32>) {
+    let begin_of = |face: usize| faces.loops.offsets()[faces.face_loops[face] as usize] as usize;
+    let mut offsets = Vec::with_capacity(range.len() + 1);
+    let mut entries = Vec::with_capacity(3 * range.len());
+    let mut column: Vec<u32> = Vec::new();
+    offsets.push(0);
+    for face in range {
+        column.clear();
+        column.extend_from_slice(&faces.loops.indices()[begin_of(face)..begin_of(face + 1)]);
+        column.sort_unstable();
+        for same in column.chunk_by(|a, b| a / 2 == b / 2) {
             if let &[h] = same {
-                self.edges.push(h / 2);
-                self.signs.push(1 - 2 * (h % 2) as i8);
+                entries.push(h);
             }
         }
-        self.ends.push(self.edges.len() as u32);
+        offsets.push(entries.len() as u32);
     }
-
-    fn joined(parts: Vec<Self>) -> Self {
-        let mut parts = parts.into_iter();
-        let mut all = parts.next().unwrap_or_else(|| Self::with_capacity(0));
-        for part in parts {
-            let base = all.edges.len() as u32;
-            all.ends.extend(part.ends[1..].iter().map(|end| base + end));
-            all.edges.extend(part.edges);
-            all.signs.extend(part.signs);
-        }
-        all
-    }
+    (offsets, entries)
 }
 
 pub(crate) fn boundary_3(cells_of_face: &[[u32; 2]], n_cells: usize) -> Operator {

@@ -13,6 +13,7 @@ use crate::soup::Parent;
 use crate::split::offsets;
 use crate::stats::Stats;
 use crate::union_find::UnionFind;
+use crate::wrap;
 use lar_core::{Cells, ChainComplex, FaceId, Points};
 
 /// The stages of a surface, and their usual shares in the time.
@@ -241,7 +242,9 @@ impl<'a> OutwardFaces<'a> {
             }
             face_loops.push(loops.len() as u32);
         })?;
-        let around = faces_around(edges.len(), &loops, &face_loops);
+        let (offsets, mut around) = wrap::faces_at_edges(edges.len(), &loops, &face_loops).into_parts();
+        around.iter_mut().for_each(|entry| *entry /= 2);
+        let around = Cells::from_parts(offsets, around);
         Ok(Self { solid, faces, vertices: vertices.list, edges, loops, face_loops, around })
     }
 
@@ -317,26 +320,6 @@ impl<'a> OutwardFaces<'a> {
         };
         (merged, self.vertices)
     }
-}
-
-/// The faces at each edge, ascending.
-fn faces_around(n_edges: usize, loops: &Cells, face_loops: &[u32]) -> Cells {
-    let mut offsets = vec![0u32; n_edges + 2];
-    loops.indices().iter().for_each(|h| offsets[(h / 2) as usize + 2] += 1);
-    for i in 2..offsets.len() {
-        offsets[i] += offsets[i - 1];
-    }
-    // offsets[i + 1] is where the next face at edge i goes; in the end, where those of i + 1 begin.
-    let mut faces = vec![0; loops.indices().len()];
-    for (range, face) in face_loops.windows(2).zip(0..) {
-        for h in (range[0]..range[1]).flat_map(|l| &loops[l as usize]) {
-            let at = &mut offsets[(h / 2) as usize + 1];
-            faces[*at as usize] = face;
-            *at += 1;
-        }
-    }
-    offsets.pop();
-    Cells::from_parts(offsets, faces)
 }
 
 /// Distinct numbers in ascending order, and the place of each in that list.

@@ -17,19 +17,20 @@
 //!                 |             joined: next(f1) with before(f2), next(f2) with before(f3), …
 //! ```
 
+use crate::counting::joined;
 use crate::kernel::{Geometry, Sign};
 use crate::parallel;
 use crate::skeleton::Skeleton;
 use crate::union_find::UnionFind;
 use lar_core::Cells;
 use std::cmp::Ordering;
+use std::ops::Range;
 
 /// For every edge the faces around it, counter-clockwise seen from the tip of its direction: 2 · face, + 1 where
 /// the face's loop runs against the edge. A face may stand there twice (both sides of a slit).
 pub(crate) fn rings(skeleton: &Skeleton, geometry: &Geometry) -> Cells {
     let n = skeleton.edges.len();
-    let parts = parallel::map(parallel::n_threads(), |part| entries_of(parallel::part_of(n, part), skeleton));
-    let (offsets, mut entries) = joined(parts);
+    let (offsets, mut entries) = faces_at_edges(n, &skeleton.loops, &skeleton.face_loops).into_parts();
     let of = |edge: u32| offsets[edge as usize] as usize..offsets[edge as usize + 1] as usize;
     let crowded: Vec<u32> = (0..n as u32).filter(|&edge| of(edge).len() > 2).collect();
     let (n_chunks, range) = parallel::chunks(crowded.len(), 1024);
@@ -53,20 +54,29 @@ pub(crate) fn rings(skeleton: &Skeleton, geometry: &Geometry) -> Cells {
     Cells::from_parts(offsets, entries)
 }
 
-/// The faces around some edges in their order, and where those of each edge begin and end.
-fn entries_of(edges: std::ops::Range<usize>, skeleton: &Skeleton) -> (Vec<u32>, Vec<u32>) {
+/// For every edge the faces that have it in a loop, ascending: 2 · face, + 1 where the loop runs against the edge. The loops of
+/// face f are `face_loops[f]..face_loops[f + 1]`. O(size of the loops) for each thread.
+pub(crate) fn faces_at_edges(n_edges: usize, loops: &Cells, face_loops: &[u32]) -> Cells {
+    let parts = parallel::map(parallel::n_threads(), |part| {
+        faces_at(parallel::part_of(n_edges, part), loops, face_loops)
+    });
+    let (offsets, entries) = joined(parts);
+    Cells::from_parts(offsets, entries)
+}
+
+/// The same for some of the edges.
+fn faces_at(edges: Range<usize>, loops: &Cells, face_loops: &[u32]) -> (Vec<u32>, Vec<u32>) {
     let place = |h: u32| ((h / 2) as usize).checked_sub(edges.start).filter(|&place| place < edges.len());
     // offsets[i + 1] is where the next entry of edge i goes; in the end, where those of i + 1 begin.
     let mut offsets = vec![0u32; edges.len() + 2];
-    skeleton.loops.indices().iter().filter_map(|&h| place(h)).for_each(|i| offsets[i + 2] += 1);
+    loops.indices().iter().filter_map(|&h| place(h)).for_each(|i| offsets[i + 2] += 1);
     for i in 2..offsets.len() {
         offsets[i] += offsets[i - 1];
     }
     let mut entries = vec![0; offsets[edges.len() + 1] as usize];
-    let loop_offsets = skeleton.loops.offsets();
-    for (loops, face) in skeleton.face_loops.windows(2).zip(0u32..) {
-        let [begin, end] = [loops[0], loops[1]].map(|l| loop_offsets[l as usize] as usize);
-        for &h in &skeleton.loops.indices()[begin..end] {
+    for (range, face) in face_loops.windows(2).zip(0u32..) {
+        let [begin, end] = [range[0], range[1]].map(|l| loops.offsets()[l as usize] as usize);
+        for &h in &loops.indices()[begin..end] {
             if let Some(i) = place(h) {
                 let at = &mut offsets[i + 1];
                 entries[*at as usize] = 2 * face + h % 2;
@@ -75,17 +85,6 @@ fn entries_of(edges: std::ops::Range<usize>, skeleton: &Skeleton) -> (Vec<u32>, 
         }
     }
     offsets.pop();
-    (offsets, entries)
-}
-
-fn joined(parts: Vec<(Vec<u32>, Vec<u32>)>) -> (Vec<u32>, Vec<u32>) {
-    let mut parts = parts.into_iter();
-    let (mut offsets, mut entries) = parts.next().unwrap_or_else(|| (vec![0], Vec::new()));
-    for (more_offsets, more) in parts {
-        let base = entries.len() as u32;
-        offsets.extend(more_offsets[1..].iter().map(|offset| base + offset));
-        entries.extend(more);
-    }
     (offsets, entries)
 }
 

@@ -230,7 +230,14 @@ impl Geometry {
 
     /// Whether two facets lie in one plane.
     pub(crate) fn is_coplanar(&self, f: u32, g: u32) -> bool {
-        f == g || self.base(g).iter().all(|&p| self.side_of_point(p, f) == Sign::Zero)
+        f == g
+            || (!self.is_across(f, g) && self.base(g).iter().all(|&p| self.side_of_point(p, f) == Sign::Zero))
+    }
+
+    /// Whether the planes of two facets are not parallel beyond doubt.
+    fn is_across(&self, f: u32, g: u32) -> bool {
+        let line = self.direction(Along::Facets([f, g]));
+        line.float.iter().any(|x| x.abs() > line.error)
     }
 
     /// For two facets with parallel planes: whether their normals point the same way.

@@ -2,11 +2,12 @@
 """Planar arrangements compared with other libraries: `plane.py DIRECTORY [WORKLOAD ...]`.
 
 Fetches and builds the others in DIRECTORY (which is made; about 1 GB), writes the workloads of
-lar-arrangement/benches/planar there, runs all libraries on them (or on those that are named) by turns, checks that they
-count the same cells, and writes the section on the plane of docs/benchmarks.md. Needs Linux with cargo, g++, Debian's
-apt-get, and Python with venv.
+lar-arrangement/benches/planar there, runs all libraries on them (or on those that are named; the other rows are then those
+of the last run in DIRECTORY) by turns, checks that they count the same cells, and writes the section on the plane of
+docs/benchmarks.md. Needs Linux with cargo, g++, Debian's apt-get, and Python with venv.
 """
 
+import json
 import math
 import sys
 from pathlib import Path
@@ -149,12 +150,14 @@ def main():
     workloads = directory / "plane"
     workloads.mkdir(exist_ok=True)
     names = harness.subprocess.check_output([plane, "write", workloads], text=True).split()
-    rows, too_large = {}, {}
-    for name in names:
-        if not sys.argv[2:] or name in sys.argv[2:]:
-            results = harness.by_turns(commands, workloads / f"{name}.seg", too_large)
-            rows[name] = results, check(name, results)
-    harness.write_section("plane", section(rows))
+    wanted, last = sys.argv[2:] or names, directory / "plane.json"
+    rows = json.loads(last.read_text()) if last.exists() and wanted != names else {}
+    too_large = {}
+    for name in [name for name in names if name in wanted]:
+        results = harness.by_turns(commands, workloads / f"{name}.seg", too_large)
+        rows[name] = results, check(name, results)
+        last.write_text(json.dumps(rows, indent=1))
+    harness.write_section("plane", section({name: rows[name] for name in names if name in rows}))
 
 
 if __name__ == "__main__":

@@ -100,14 +100,18 @@ fn loops(triangles: &[Triangle]) -> Vec<Vec<[f64; 2]>> {
         }
     }
     let mut loops = Vec::new();
-    while let Some((&start, _)) = sides.iter().find(|(_, ends)| !ends.is_empty()) {
+    while let Some(first) = sides.first_entry() {
+        let start = *first.key();
+        if first.get().is_empty() {
+            first.remove();
+            continue;
+        }
         let mut cycle = vec![start];
         let mut at = start;
         while let Some(next) = sides.get_mut(&at).and_then(Vec::pop).filter(|next| *next != start) {
             cycle.push(next);
             at = next;
         }
-        sides.retain(|_, ends| !ends.is_empty());
         loops.push(cycle.into_iter().map(|p| p.map(|c| c as f64 / STEPS)).collect());
     }
     loops

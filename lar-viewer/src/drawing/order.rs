@@ -13,7 +13,11 @@ use std::collections::BinaryHeap;
 /// not compared goes by its farthest corner.
 const PAIRS: usize = 20_000_000;
 
-/// The areas of faces, those behind before those in front. O(n log n + pairs that overlap).
+/// Faces that are looked at for others beside them, at most: it bounds the time where very many lie above each other on the
+/// screen.
+const LOOKS: usize = 1 << 28;
+
+/// The areas of faces, those behind before those in front. O(n log n + pairs that meet in their widths).
 pub(super) fn back_to_front(faces: Vec<Face>) -> Vec<InkArea> {
     let boxes: Vec<Reach> = faces.iter().map(Reach::of).collect();
     let before = constraints(&faces, &boxes);
@@ -46,8 +50,12 @@ fn constraints(faces: &[Face], boxes: &[Reach]) -> Vec<Vec<usize>> {
     let mut by_left: Vec<usize> = (0..faces.len()).collect();
     by_left.sort_by(|&a, &b| boxes[a].lo[0].total_cmp(&boxes[b].lo[0]).then(a.cmp(&b)));
     let mut before = vec![Vec::new(); faces.len()];
-    let (mut open, mut pairs): (Vec<usize>, usize) = (Vec::new(), 0);
+    let (mut open, mut pairs, mut looks): (Vec<usize>, usize, usize) = (Vec::new(), 0, 0);
     for face in by_left {
+        looks += open.len();
+        if LOOKS < looks {
+            break;
+        }
         open.retain(|&other| boxes[face].lo[0] < boxes[other].hi[0]);
         for &other in &open {
             if pairs < PAIRS && boxes[face].overlaps(&boxes[other]) {

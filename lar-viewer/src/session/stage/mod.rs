@@ -20,7 +20,7 @@ use super::{Pieces, Session};
 use crate::{Appearance, CellData, CellRef, Drawable, GroupId, Scene, ViewerError};
 use shapes::{dots, fill, lines};
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Where a piece belongs: its unit, and the face, edge and vertex of the unit that it is, as far as it is one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -58,6 +58,8 @@ pub struct Stage {
     /// Of each drawable of the pieces.
     roles: Vec<(Kind, Place)>,
     groups: BTreeMap<Place, GroupId>,
+    /// Where the number of each cell of each dimension stands, once it was asked for.
+    numbers_at: [Vec<OnceLock<[f64; 3]>>; 4],
 }
 
 impl Stage {
@@ -83,7 +85,11 @@ impl Stage {
             builder.push_unit(unit, solid, middle)?;
         }
         let Builder { pieces, roles, groups, .. } = builder;
-        Ok(Self { fineness, pieces: Arc::new(pieces), roles, groups })
+        let numbers_at = std::array::from_fn(|dim| match dim as u8 {
+            dim if dim <= data.dim() => vec![OnceLock::new(); data.n_cells(dim)],
+            _ => Vec::new(),
+        });
+        Ok(Self { fineness, pieces: Arc::new(pieces), roles, groups, numbers_at })
     }
 
     /// The fineness.

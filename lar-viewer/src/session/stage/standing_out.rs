@@ -71,7 +71,10 @@ impl Stage {
                 // The exterior stays in place: what others share with it carries its number with them.
                 let unit = shown.min_by_key(|&u| data.is_exterior(u));
                 let group = unit.and_then(|unit| self.groups_of(data, unit, cell).first().copied());
-                found.extend(group.map(|group| (cell, data.inside(cell), group)));
+                let at = || {
+                    *self.numbers_at[usize::from(dim)][cell.index as usize].get_or_init(|| data.inside(cell))
+                };
+                found.extend(group.map(|group| (cell, at(), group)));
             }
         }
         found
