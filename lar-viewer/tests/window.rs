@@ -25,7 +25,7 @@ fn a_complex_is_explored_with_mouse_and_keys() {
         return;
     };
     let picture = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/pictures/window.png");
-    check_screen(&session, &picture);
+    check_screen(&session, [1280, 750], &picture);
     session.check_changes("selecting a cell", 2_000, |s| s.xdotool("mousemove 420 450 click 1"));
     session.check_changes("its boundary chain", 20_000, |s| s.xdotool("mousemove 600 700 key b"));
     session.check_changes("leaving the chain", 20_000, |s| s.xdotool("key Escape"));

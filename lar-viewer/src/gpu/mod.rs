@@ -5,6 +5,7 @@ pub(crate) mod context;
 pub(crate) mod cull;
 pub(crate) mod elements;
 pub(crate) mod frame;
+mod kinds;
 pub(crate) mod layers;
 mod layouts;
 pub(crate) mod parts;

@@ -4,13 +4,14 @@
 //! the A-buffer or sums them, and *id*, which tells what is seen where. Two more steps work on the whole screen.
 
 use super::context::Transparency;
-use super::elements::{Dot, KINDS, Line, Stroke, Vertex};
+use super::elements::KINDS;
+use super::kinds::{self, Kind};
 use super::layouts::{
     SAMPLE_COLOR, bind_group_layout, frame_layout, layers_layout, pipeline_layout, sums_layout, texture_entry,
 };
 use super::scene::Way;
-use super::shaders::{self, Sources};
-use wgpu::{BindGroupLayout, Device, PipelineLayout, RenderPipeline, TextureFormat, VertexAttribute};
+use super::shaders;
+use wgpu::{BindGroupLayout, Device, PipelineLayout, RenderPipeline, TextureFormat};
 
 /// Colour of samples and of the finished picture.
 pub(crate) const COLOR: TextureFormat = TextureFormat::Rgba8Unorm;
@@ -25,20 +26,6 @@ pub(crate) const SOLID: TextureFormat = TextureFormat::R32Uint;
 pub(crate) const SUM: TextureFormat = TextureFormat::Rgba16Float;
 /// Depth buffer of the opaque pass.
 pub(crate) const DEPTH: TextureFormat = TextureFormat::Depth32Float;
-
-/// What the mesh shader reads per vertex, in the order of the fields of `Vertex`.
-const MESH_ATTRIBUTES: [VertexAttribute; 3] =
-    wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Snorm16x4];
-/// What the line shader reads per instance, in the order of the fields of `Line`.
-const LINE_ATTRIBUTES: [VertexAttribute; 5] =
-    wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Float32x3, 3 => Float32, 4 => Float32];
-/// What the point shader reads per instance, in the order of the fields of `Dot`.
-const POINT_ATTRIBUTES: [VertexAttribute; 3] =
-    wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Float32];
-
-/// What the label shader reads per instance, in the order of the fields of `Stroke`.
-const STROKE_ATTRIBUTES: [VertexAttribute; 4] =
-    wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Sint16x4, 3 => Float32];
 
 /// The ways of drawing one kind of geometry.
 pub(crate) struct Ways {
@@ -88,10 +75,10 @@ impl Pipelines {
         let layer = pipeline_layout(device, &[&frame_layout, &layers_layout]);
         let reduce = pipeline_layout(device, &[&frame_layout, &samples_layout]);
         // Summed layers read nothing but the frame.
-        let kinds = if transparency == Transparency::Sorted { &layer } else { &opaque };
-        let maker = Maker { device, opaque: &opaque, layer: kinds, transparency };
+        let layered = if transparency == Transparency::Sorted { &layer } else { &opaque };
+        let maker = Maker { device, opaque: &opaque, layer: layered, transparency };
         Self {
-            kinds: [maker.mesh(), maker.lines(), maker.points(), maker.strokes()],
+            kinds: kinds::ALL.map(|kind| maker.ways(&kind)),
             resolve: whole_screen(device, resolve.0, resolve.1, &layer, Some(OVER)),
             reduce: whole_screen(device, shaders::REDUCE, "reduce", &reduce, None),
             outline: whole_screen(device, shaders::OUTLINE, "outline", &outline, None),
@@ -158,14 +145,6 @@ fn whole_screen(
     })
 }
 
-/// One kind of geometry: entry points, topology, and the layout of what is read per vertex or instance.
-struct Kind<'a> {
-    sources: &'a Sources,
-    name: &'a str,
-    topology: wgpu::PrimitiveTopology,
-    buffer: wgpu::VertexBufferLayout<'a>,
-}
-
 struct Maker<'a> {
     device: &'a Device,
     opaque: &'a PipelineLayout,
@@ -174,59 +153,7 @@ struct Maker<'a> {
 }
 
 impl Maker<'_> {
-    fn mesh(&self) -> Ways {
-        self.ways(&Kind {
-            sources: &shaders::MESH,
-            name: "mesh",
-            topology: wgpu::PrimitiveTopology::TriangleList,
-            buffer: wgpu::VertexBufferLayout {
-                array_stride: size_of::<Vertex>() as u64,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &MESH_ATTRIBUTES,
-            },
-        })
-    }
-
-    fn lines(&self) -> Ways {
-        self.ways(&Kind {
-            sources: &shaders::LINES,
-            name: "line",
-            topology: wgpu::PrimitiveTopology::TriangleStrip,
-            buffer: wgpu::VertexBufferLayout {
-                array_stride: size_of::<Line>() as u64,
-                step_mode: wgpu::VertexStepMode::Instance,
-                attributes: &LINE_ATTRIBUTES,
-            },
-        })
-    }
-
-    fn points(&self) -> Ways {
-        self.ways(&Kind {
-            sources: &shaders::POINTS,
-            name: "point",
-            topology: wgpu::PrimitiveTopology::TriangleStrip,
-            buffer: wgpu::VertexBufferLayout {
-                array_stride: size_of::<Dot>() as u64,
-                step_mode: wgpu::VertexStepMode::Instance,
-                attributes: &POINT_ATTRIBUTES,
-            },
-        })
-    }
-
-    fn strokes(&self) -> Ways {
-        self.ways(&Kind {
-            sources: &shaders::LABELS,
-            name: "label",
-            topology: wgpu::PrimitiveTopology::TriangleList,
-            buffer: wgpu::VertexBufferLayout {
-                array_stride: size_of::<Stroke>() as u64,
-                step_mode: wgpu::VertexStepMode::Instance,
-                attributes: &STROKE_ATTRIBUTES,
-            },
-        })
-    }
-
-    fn ways(&self, kind: &Kind<'_>) -> Ways {
+    fn ways(&self, kind: &Kind) -> Ways {
         let target = |format, write_mask| Some(wgpu::ColorTargetState { format, blend: None, write_mask });
         let depth = wgpu::DepthStencilState {
             format: DEPTH,
@@ -268,7 +195,7 @@ impl Maker<'_> {
 
     fn pipeline(
         &self,
-        kind: &Kind<'_>,
+        kind: &Kind,
         module: &wgpu::ShaderModule,
         way: &str,
         layout: &PipelineLayout,
@@ -283,7 +210,7 @@ impl Maker<'_> {
                 module,
                 entry_point: Some(&vertex),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
-                buffers: &[Some(kind.buffer.clone())],
+                buffers: &[Some(kind.buffer())],
             },
             primitive: wgpu::PrimitiveState { topology: kind.topology, ..Default::default() },
             depth_stencil,
@@ -297,33 +224,5 @@ impl Maker<'_> {
             multiview_mask: None,
             cache: None,
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::mem::offset_of;
-
-    #[track_caller]
-    fn check_offsets(attributes: &[VertexAttribute], offsets: &[usize], size: usize) {
-        let read: Vec<_> = attributes.iter().map(|a| a.offset as usize).collect();
-        assert_eq!(read, offsets);
-        let end = attributes.iter().map(|a| a.offset + a.format.size()).max();
-        assert_eq!(end, Some(size as u64));
-    }
-
-    #[test]
-    fn attributes_lie_where_the_structs_have_their_fields() {
-        let mesh = [offset_of!(Vertex, position), offset_of!(Vertex, part), offset_of!(Vertex, normal)];
-        check_offsets(&MESH_ATTRIBUTES, &mesh, size_of::<Vertex>());
-        let line = [offset_of!(Line, start), offset_of!(Line, part), offset_of!(Line, end)];
-        let line = [&line[..], &[offset_of!(Line, width), offset_of!(Line, most)]].concat();
-        check_offsets(&LINE_ATTRIBUTES, &line, size_of::<Line>());
-        let point = [offset_of!(Dot, center), offset_of!(Dot, part), offset_of!(Dot, size)];
-        check_offsets(&POINT_ATTRIBUTES, &point, size_of::<Dot>());
-        let stroke = [offset_of!(Stroke, anchor), offset_of!(Stroke, part), offset_of!(Stroke, ends)];
-        let stroke = [&stroke[..], &[offset_of!(Stroke, width)]].concat();
-        check_offsets(&STROKE_ATTRIBUTES, &stroke, size_of::<Stroke>());
     }
 }

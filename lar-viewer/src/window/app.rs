@@ -6,7 +6,7 @@ use super::loader::{Loaded, Loader};
 use super::painter::Painter;
 use super::subject::Subject;
 use crate::session::{Queries, Session};
-use crate::{Camera, Scene, View, ViewerError};
+use crate::{Camera, View, ViewerError};
 use std::sync::Arc;
 use web_time::Instant;
 use winit::application::ApplicationHandler;
@@ -31,7 +31,7 @@ pub(crate) struct Contents {
 impl Contents {
     /// A scene as it is.
     #[cfg(not(target_arch = "wasm32"))]
-    pub(crate) fn scene(scene: Scene, view: View) -> Self {
+    pub(crate) fn scene(scene: crate::Scene, view: View) -> Self {
         Self { view, subject: Subject::scene(scene), fit: false }
     }
 

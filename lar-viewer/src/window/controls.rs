@@ -1,14 +1,17 @@
 //! The interface of a window: panels, mouse and keys change a subject and a view. Needs no window and no graphics card.
 
+mod clicks;
+
+pub(crate) use clicks::{Click, PickAs, Tool};
+
 use super::exhibit::Exhibit;
 use super::keys::{self, Action};
 use super::navigation::Navigation;
 use super::panels::{self, Capture, Texts, Tools};
 use super::subject::Subject;
 use crate::session::{Command, Relation};
-use crate::{Camera, CellRef, Hit, StandardView, View};
+use crate::{StandardView, View};
 use egui::{Rect, Response, Ui};
-use glam::DVec3;
 use std::path::PathBuf;
 
 /// Widths of the panels in points.
@@ -18,47 +21,6 @@ const PANEL_WIDTH: f32 = 270.0;
 const SELECTION_HEIGHT: f32 = 300.0;
 /// The most of the left panel that it takes.
 const SELECTION_SHARE: f32 = 0.6;
-
-/// What a click does.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Tool {
-    /// Selects a cell.
-    #[default]
-    Select,
-    /// Picks points to measure between.
-    Measure,
-}
-
-/// What a click selects.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum PickAs {
-    /// The vertex, edge, or cell that is seen; the face when cells are not drawn.
-    #[default]
-    Seen,
-    /// A cell of this dimension.
-    Dimension(u8),
-}
-
-impl PickAs {
-    pub(crate) const ALL: [Self; 5] =
-        [Self::Seen, Self::Dimension(3), Self::Dimension(2), Self::Dimension(1), Self::Dimension(0)];
-
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Seen => "anything",
-            Self::Dimension(dim) => ["vertices", "edges", "faces", "cells"][usize::from(dim.min(3))],
-        }
-    }
-}
-
-/// A click on the picture, to be looked up there.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Click {
-    /// In points from the upper left corner of the picture.
-    pub(crate) at: [f32; 2],
-    /// Turns about the point instead of selecting.
-    pub(crate) double: bool,
-}
 
 /// What the user asked for in one frame, and where the picture goes.
 #[derive(Clone, Debug, PartialEq)]
@@ -150,7 +112,7 @@ impl Controls {
         if !dragging {
             self.subject.settle();
         }
-        Asked { area: response.rect, capture, click: click(&response), load, close, dragging }
+        Asked { area: response.rect, capture, click: clicks::click(&response), load, close, dragging }
     }
 
     fn fit_at_first(&mut self) {
@@ -285,46 +247,6 @@ impl Controls {
         true
     }
 
-    /// Does what a click asks for, now that it is known what it hit.
-    pub(crate) fn clicked(&mut self, click: Click, hit: Option<Hit>) {
-        if click.double {
-            if let Some(hit) = hit {
-                let target = (DVec3::from(hit.point) + DVec3::from(hit.moved)).to_array();
-                self.view.camera = Camera { target, ..self.view.camera };
-            }
-        } else if self.tool == Tool::Measure {
-            let point = hit.map(|hit| self.snapped(&hit));
-            self.subject.apply(point.map(Command::Measure));
-        } else {
-            let picked = hit.and_then(|hit| self.picked(&hit));
-            self.subject.apply([Command::Select(picked)]);
-        }
-        if let Err(error) = self.subject.update() {
-            self.message = error.to_string();
-        }
-    }
-
-    /// The point that was hit, or the vertex that it shows.
-    fn snapped(&self, hit: &Hit) -> [f64; 3] {
-        let vertex = hit.cell.filter(|c| c.dim == 0);
-        let data = self.subject.explored.as_ref().map(|e| e.session.data());
-        data.zip(vertex).and_then(|(data, v)| data.position(v.index)).unwrap_or(hit.point)
-    }
-
-    fn picked(&self, hit: &Hit) -> Option<CellRef> {
-        let session = &self.subject.explored.as_ref()?.session;
-        let layers = session.visibility().layers;
-        let found = [hit.cell, hit.owner].into_iter().flatten();
-        match self.pick_as {
-            PickAs::Dimension(dim) => found.into_iter().find(|c| c.dim == dim),
-            PickAs::Seen => {
-                let through =
-                    |c: &CellRef| c.dim == 2 && session.data().dim() == 3 && layers[3] && !layers[2];
-                hit.cell.filter(|c| !through(c)).or(hit.owner)
-            }
-        }
-    }
-
     /// Shows what was loaded, or says why not.
     pub(crate) fn loaded(&mut self, files: &[PathBuf], result: Result<Exhibit, String>) {
         let names: Vec<String> = files.iter().map(|f| f.display().to_string()).collect();
@@ -340,13 +262,6 @@ fn section<R>(ui: &mut Ui, title: &str, open: bool, add: impl FnOnce(&mut Ui) ->
     egui::CollapsingHeader::new(egui::RichText::new(title).strong())
         .default_open(open)
         .show_unindented(ui, add);
-}
-
-/// A click that was no drag, on the picture.
-fn click(response: &Response) -> Option<Click> {
-    let at = response.interact_pointer_pos()? - response.rect.min;
-    let double = response.double_clicked();
-    (double || response.clicked()).then_some(Click { at: [at.x, at.y], double })
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! What the keys do: one table, which the help overlay shows.
 
-use egui::{Key, Modifiers, Ui};
+use egui::{Event, Key, Modifiers, Ui};
 
 /// What a key asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,22 +95,26 @@ fn bindings() -> impl Iterator<Item = Binding> {
     control.chain(views.chain(layers).chain(others).map(plain))
 }
 
-/// The actions whose keys were pressed in this frame. Keys belong to a text field while one is written in.
+/// The actions whose keys were pressed in this frame, in their order. Keys belong to a text field while one is written in.
 pub(crate) fn pressed(ui: &Ui) -> Vec<Action> {
     if ui.ctx().text_edit_focused() {
         return Vec::new();
     }
-    let pressed = |b: &Binding| {
-        ui.input_mut(|i| {
-            if b.modifiers == Modifiers::NONE {
+    ui.input(|i| i.events.iter().filter_map(action).collect())
+}
+
+fn action(event: &Event) -> Option<Action> {
+    let &Event::Key { key, pressed: true, modifiers, .. } = event else { return None };
+    let matches = |b: &Binding| {
+        b.key == key
+            && if b.modifiers == Modifiers::NONE {
                 // Question marks need shift on most keyboards, so plain keys do not ask for its absence.
-                !i.modifiers.command && i.key_pressed(b.key)
+                !modifiers.command
             } else {
-                i.consume_key(b.modifiers, b.key)
+                modifiers.matches_logically(b.modifiers)
             }
-        })
     };
-    bindings().filter(pressed).map(|b| b.action).collect()
+    bindings().find(matches).map(|b| b.action)
 }
 
 #[cfg(test)]

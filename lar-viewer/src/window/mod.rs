@@ -14,6 +14,7 @@ mod controls;
 mod desktop;
 mod exhibit;
 mod host;
+mod input;
 mod keys;
 #[cfg_attr(target_arch = "wasm32", allow(dead_code, reason = "browsers load no files"))]
 mod loader;

@@ -3,6 +3,7 @@
 use super::capture::{self, Recording};
 use super::controls::{Asked, Click, Controls};
 use super::host::Host;
+use super::input::split_off_later;
 use super::panels::Capture;
 use super::picture::Picture;
 use super::surface::{self, Surface};
@@ -91,7 +92,8 @@ impl Painter {
         if self.surface.is_empty() {
             return Ok(After { close: false, load: Vec::new(), repaint_in: None });
         }
-        let input = self.egui.take_egui_input(&self.window);
+        let mut input = self.egui.take_egui_input(&self.window);
+        let later = split_off_later(&mut input.events);
         let context = self.egui.egui_ctx().clone();
         let mut asked = None;
         let mut output = context.run_ui(input, |ui| asked = Some(self.controls.show(ui, self.shown)));
@@ -105,10 +107,11 @@ impl Painter {
         let jobs = context.tessellate(output.shapes, output.pixels_per_point);
         self.present(&jobs, output.pixels_per_point)?;
         unused.iter().for_each(|id| self.egui_renderer.free_texture(id));
-        if repaint_in == Some(Duration::ZERO) {
+        if repaint_in == Some(Duration::ZERO) || !later.is_empty() {
             self.window.request_redraw();
             repaint_in = None;
         }
+        self.egui.egui_input_mut().events.splice(..0, later);
         let (close, load) = asked.map_or((false, Vec::new()), |asked| (asked.close, asked.load));
         Ok(After { close, load, repaint_in })
     }

@@ -28,6 +28,7 @@ pub(crate) struct Subject {
 
 impl Subject {
     /// A scene as it is.
+    #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn scene(scene: Scene) -> Self {
         Self::pieces(Arc::new(scene), Scene::new())
     }

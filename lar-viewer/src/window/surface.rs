@@ -61,21 +61,51 @@ impl Surface {
         &mut self,
         context: &Context,
     ) -> Result<Option<wgpu::SurfaceTexture>, ViewerError> {
-        match self.surface.get_current_texture() {
+        let remedy = match self.surface.get_current_texture() {
             CurrentSurfaceTexture::Success(texture) | CurrentSurfaceTexture::Suboptimal(texture) => {
                 return Ok(Some(texture));
             }
-            CurrentSurfaceTexture::Occluded => return Ok(None),
-            CurrentSurfaceTexture::Timeout => {}
-            CurrentSurfaceTexture::Outdated => self.surface.configure(&context.device, &self.config),
-            CurrentSurfaceTexture::Lost => {
+            missing => remedy(&missing),
+        };
+        match remedy {
+            Remedy::Wait => return Ok(None),
+            Remedy::Retry => {}
+            Remedy::Report => context.check()?,
+            Remedy::Configure => self.surface.configure(&context.device, &self.config),
+            Remedy::Renew => {
                 self.surface = on(&self.instance, &self.window)?;
                 self.surface.configure(&context.device, &self.config);
             }
-            CurrentSurfaceTexture::Validation => context.check()?,
         }
         self.window.request_redraw();
         Ok(None)
+    }
+}
+
+/// What helps where there is no texture to draw on. All but waiting ask for another frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Remedy {
+    /// Nothing is seen of the window; it says when it is.
+    Wait,
+    Retry,
+    /// The window has changed since the surface was configured.
+    Configure,
+    /// A new surface of the same window.
+    Renew,
+    /// What the graphics card refused closes the window with its message.
+    Report,
+}
+
+/// A surface that has a texture needs none, and tries again.
+fn remedy(missing: &CurrentSurfaceTexture) -> Remedy {
+    match missing {
+        CurrentSurfaceTexture::Occluded => Remedy::Wait,
+        CurrentSurfaceTexture::Outdated => Remedy::Configure,
+        CurrentSurfaceTexture::Lost => Remedy::Renew,
+        CurrentSurfaceTexture::Validation => Remedy::Report,
+        CurrentSurfaceTexture::Timeout
+        | CurrentSurfaceTexture::Success(_)
+        | CurrentSurfaceTexture::Suboptimal(_) => Remedy::Retry,
     }
 }
 
@@ -113,4 +143,22 @@ pub(crate) fn pass(
         ..Default::default()
     };
     encoder.begin_render_pass(&descriptor).forget_lifetime()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn surfaces_that_are_lost_or_outdated_are_found_again() {
+        for (missing, expected) in [
+            (CurrentSurfaceTexture::Timeout, Remedy::Retry),
+            (CurrentSurfaceTexture::Occluded, Remedy::Wait),
+            (CurrentSurfaceTexture::Outdated, Remedy::Configure),
+            (CurrentSurfaceTexture::Lost, Remedy::Renew),
+            (CurrentSurfaceTexture::Validation, Remedy::Report),
+        ] {
+            assert_eq!(remedy(&missing), expected, "{missing:?}");
+        }
+    }
 }

@@ -11,6 +11,12 @@ use std::time::{Duration, Instant};
 /// Long enough for the software driver to draw a frame in a debug build on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(20);
 
+/// Bytes in a row of the screen.
+const ROW: usize = 3 * 1280;
+
+/// More pixels than a cursor that blinks in a text field.
+const CURSOR: usize = 40;
+
 /// A virtual screen with a window on it; both end with it.
 pub(crate) struct Session {
     screen: Child,
@@ -87,14 +93,16 @@ impl Session {
 
     /// Moves the hands and waits a moment.
     pub(crate) fn xdotool(&self, arguments: &str) {
-        let status = Command::new("xdotool")
-            .args(arguments.split_whitespace())
-            .env("DISPLAY", &self.display)
-            .stdout(Stdio::null())
-            .status()
-            .unwrap();
-        assert!(status.success(), "xdotool {arguments}");
-        sleep(Duration::from_millis(150));
+        run(Command::new("xdotool").args(arguments.split_whitespace()).env("DISPLAY", &self.display));
+        sleep(Duration::from_millis(100));
+    }
+
+    /// What is done reaches the program at once, as if it had been drawing one frame all the time.
+    pub(crate) fn at_once(&self, act: impl FnOnce(&Self)) {
+        let signal = |name: &str| run(Command::new("kill").arg(name).arg(self.window.id().to_string()));
+        signal("-STOP");
+        act(self);
+        signal("-CONT");
     }
 
     /// Drags with a mouse button.
@@ -106,19 +114,28 @@ impl Session {
         self.xdotool(&format!("mouseup {button}"));
     }
 
-    /// The whole screen, once something is on it and two looks at it agree.
+    /// The whole screen, once something is on it, two looks at it agree and the program has nothing to do in between.
     pub(crate) fn look(&self) -> Vec<u8> {
         let start = Instant::now();
-        let mut last = self.screenshot();
+        let mut last = (self.screenshot(), self.processor_time());
         loop {
-            sleep(Duration::from_millis(400));
-            let next = self.screenshot();
-            let is_empty = next.chunks_exact(3).all(|pixel| pixel == &next[..3]);
-            if (next == last && !is_empty) || PATIENCE < start.elapsed() {
-                return next;
+            sleep(Duration::from_millis(200));
+            let next = (self.screenshot(), self.processor_time());
+            let is_empty = next.0.chunks_exact(3).all(|pixel| pixel == &next.0[..3]);
+            let rests = next.1 <= last.1 + 1 && n_changed(&last.0, &next.0, 0) <= CURSOR;
+            if (rests && !is_empty) || PATIENCE < start.elapsed() {
+                return next.0;
             }
             last = next;
         }
+    }
+
+    /// What the program has used of processors, in hundredths of a second.
+    fn processor_time(&self) -> u64 {
+        let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.window.id())).unwrap_or_default();
+        // Its name, in parentheses, is the second of the fields; times are the 14th and 15th.
+        let fields = stat.rsplit_once(')').map_or("", |(_, fields)| fields).split_whitespace();
+        fields.skip(11).take(2).filter_map(|ticks| ticks.parse::<u64>().ok()).sum()
     }
 
     fn screenshot(&self) -> Vec<u8> {
@@ -131,19 +148,33 @@ impl Session {
         output.stdout
     }
 
+    /// Looks until the screen is as it should be by this measure of how far it is from it; returns the last. What the screen
+    /// is instead is left in `lar-window.png` in the system's directory of temporary files.
+    fn await_screen(&self, mut distance: impl FnMut(&[u8]) -> usize) -> usize {
+        let start = Instant::now();
+        loop {
+            let screen = self.look();
+            let far = distance(&screen);
+            self.seen.replace(Some(screen));
+            if far == 0 {
+                return 0;
+            }
+            if PATIENCE < start.elapsed() {
+                let path = std::env::temp_dir().join("lar-window.png");
+                run(Command::new("import").args(["-window", "root"]).arg(path).env("DISPLAY", &self.display));
+                return far;
+            }
+        }
+    }
+
     /// Does something and asserts that at least `least` pixels of the screen change.
     #[track_caller]
     pub(crate) fn check_changes(&self, what: &str, least: usize, act: impl FnOnce(&Self)) {
+        assert!(CURSOR < least, "a blinking cursor would do");
         let before = self.seen.take().unwrap_or_else(|| self.look());
         act(self);
-        let start = Instant::now();
-        let mut changed = 0;
-        while changed < least && start.elapsed() < PATIENCE {
-            let after = self.look();
-            changed = before.chunks_exact(3).zip(after.chunks_exact(3)).filter(|(a, b)| a != b).count();
-            self.seen.replace(Some(after));
-        }
-        assert!(least <= changed, "{what} changed only {changed} pixels");
+        let missing = self.await_screen(|after| least.saturating_sub(n_changed(&before, after, 0)));
+        assert_eq!(missing, 0, "{what} should change at least {least} pixels; missing");
     }
 
     /// Waits for the window's process to end by itself.
@@ -166,21 +197,37 @@ fn is_installed(program: &str) -> bool {
     std::env::split_paths(&path).any(|dir| dir.join(program).is_file())
 }
 
-/// Compares the screen, but for its lowest rows, with the committed picture: at most one pixel in a hundred may differ by
-/// more than 16 of 255. `LAR_UPDATE_PICTURES=1` writes the picture.
+fn run(command: &mut Command) {
+    let status = command.stdout(Stdio::null()).status().unwrap();
+    assert!(status.success(), "{command:?}");
+}
+
+/// How many pixels differ by more than this in a channel.
+fn n_changed(a: &[u8], b: &[u8], tolerance: u8) -> usize {
+    let differs = |(a, b): (&[u8], &[u8])| a.iter().zip(b).any(|(x, y)| tolerance < x.abs_diff(*y));
+    let of_row =
+        |(a, b): (&[u8], &[u8])| a.chunks_exact(3).zip(b.chunks_exact(3)).filter(|&p| differs(p)).count();
+    // Most rows are equal, which is found at once.
+    let rows = a.chunks(ROW).zip(b.chunks(ROW));
+    rows.filter(|(a, b)| a != b).map(of_row).sum()
+}
+
+/// Compares the upper left of the screen, this wide and high, with the committed picture: at most one pixel in a hundred may
+/// differ by more than 16 of 255. `LAR_UPDATE_PICTURES=1` writes the picture.
 #[track_caller]
-pub(crate) fn check_screen(session: &Session, path: &Path) {
-    let rows = 750;
-    let screen = session.look();
+pub(crate) fn check_screen(session: &Session, [width, height]: [usize; 2], path: &Path) {
     if std::env::var_os("LAR_UPDATE_PICTURES").is_some() {
-        let arguments = ["-window", "root", "-crop", &format!("1280x{rows}+0+0"), "+repage", "-strip"];
-        let status =
-            Command::new("import").args(arguments).arg(path).env("DISPLAY", &session.display).status();
-        assert!(status.unwrap().success());
+        session.look();
+        let crop = format!("{width}x{height}+0+0");
+        let arguments = ["-window", "root", "-crop", &crop, "+repage", "-strip"];
+        run(Command::new("import").args(arguments).arg(path).env("DISPLAY", &session.display));
     }
     let expected = Command::new("convert").arg(path).args(["-depth", "8", "rgb:-"]).output().unwrap().stdout;
-    assert_eq!(expected.len(), 1280 * rows * 3, "size of {}", path.display());
-    let pixels = screen.chunks_exact(3).zip(expected.chunks_exact(3));
-    let differing = pixels.filter(|(a, b)| a.iter().zip(*b).any(|(x, y)| 16 < x.abs_diff(*y))).count();
-    assert!(differing <= 1280 * rows / 100, "{differing} pixels of {} differ", path.display());
+    assert_eq!(expected.len(), 3 * width * height, "size of {}", path.display());
+    let allowed = width * height / 100;
+    let far = session.await_screen(|screen| {
+        let rows = screen.chunks(ROW).zip(expected.chunks(3 * width));
+        rows.map(|(seen, row)| n_changed(&seen[..row.len()], row, 16)).sum::<usize>().saturating_sub(allowed)
+    });
+    assert_eq!(far, 0, "pixels of {} that differ beyond those allowed", path.display());
 }

@@ -16,7 +16,7 @@ const SIZE = { width: 1280, height: 800 };
 const PICTURE = [260, 60, 720, 680];
 const SELECTION = [0, 480, 230, 290];
 // What an expression is answered, below its field.
-const ANSWER = [998, 502, 270, 20];
+const ANSWER = [998, 526, 270, 20];
 
 mkdirSync(directory, { recursive: true });
 const browser = await chromium.launch({
@@ -87,7 +87,12 @@ let shown;
 await step('the page opens and draws', async () => {
   const start = Date.now();
   await page.goto(pathToFileURL(page_path).href);
-  await page.waitForSelector('#message[hidden]', { state: 'attached', timeout: 120000 });
+  const message = page.locator('#message');
+  await page.waitForFunction(() => {
+    const { hidden, textContent } = document.getElementById('message');
+    return hidden || textContent !== 'Loading …';
+  }, null, { timeout: 120000 });
+  assert.ok(await message.isHidden(), await message.textContent());
   console.log(`    open after ${((Date.now() - start) / 1000).toFixed(1)} s`);
   shown = await settled('opened');
   const background = { ...shown, data: Buffer.alloc(shown.data.length) };
@@ -112,7 +117,7 @@ await step('a click shows what is known of a cell', async () => {
 });
 
 await step('a Boolean expression is answered as it is typed', async () => {
-  await page.mouse.click(1100, 492);
+  await page.mouse.click(1100, 515);
   await page.keyboard.type('A - B', { delay: 50 });
   const now = await settled('boolean');
   assert.ok(changed(shown, now, ANSWER) > 0.02, 'cells and volume are told');

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::session::{Queries, Session, WrapStep};
-use crate::{CellData, Drawable, Projection, Provenance, Scene, View};
+use crate::{Camera, CellData, CellRef, Drawable, Hit, Projection, Provenance, Scene, View};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
 use egui_kittest::{Harness, kittest::Queryable};
 use lar_core::{Chain, ChainComplex, cuboid_grid};
@@ -187,6 +187,21 @@ fn keys_look_along_the_axes_fit_and_close() {
     window.key_down(Key::Escape);
     window.step();
     assert!(window.state().asked.as_ref().unwrap().close);
+}
+
+#[test]
+fn keys_of_one_frame_count_each_and_in_their_order() {
+    let mut window = complex_window();
+    window.key_press(Key::V);
+    window.key_press(Key::V);
+    window.key_press(Key::Num1);
+    window.key_press(Key::Num4);
+    window.key_press(Key::G);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    window.step();
+    assert_eq!(session(&window).visibility().layers, [false, true, true, true]);
+    assert_eq!(camera(&window).orientation, StandardView::Left.orientation());
 }
 
 #[test]

@@ -1,0 +1,103 @@
+//! Which of the events that wait make one frame.
+
+use egui::{Event, Key, Pos2};
+
+/// Points between the clicks of a double click, at most; egui allows as many between press and release.
+const SAME_PLACE: f32 = 6.0;
+
+/// Keeps the events of one frame and returns those after it.
+///
+/// A click puts the cursor into a field or out of it, Esc, Enter and Tab take it out. Within a frame clicks come first,
+/// whatever their order, and panels find out in the middle of it where the cursor is; and all clicks of a frame are one, where the
+/// mouse is at the end. On a slow driver much arrives in the time of a frame. So what is typed has a frame to itself, which
+/// ends with a key that moves the cursor, and so have clicks at different places.
+pub(crate) fn split_off_later(events: &mut Vec<Event>) -> Vec<Event> {
+    let (mut typed, mut left, mut released) = (false, false, None::<(usize, Pos2)>);
+    for (i, event) in events.iter().enumerate() {
+        match event {
+            Event::PointerButton { .. } if typed => return events.split_off(i),
+            Event::PointerButton { pos, pressed: true, .. } => {
+                if let Some((end, _)) = released.filter(|(_, at)| SAME_PLACE < at.distance(*pos)) {
+                    // With the way to where it is pressed next.
+                    return events.split_off(end);
+                }
+            }
+            Event::PointerButton { pos, .. } => released = Some((i + 1, *pos)),
+            event if is_typed(event) => {
+                if left || released.is_some() {
+                    return events.split_off(i);
+                }
+                typed = true;
+                left |= leaves(event);
+            }
+            _ => {}
+        }
+    }
+    Vec::new()
+}
+
+fn leaves(event: &Event) -> bool {
+    matches!(event, Event::Key { key: Key::Escape | Key::Enter | Key::Tab, .. })
+}
+
+fn is_typed(event: &Event) -> bool {
+    matches!(
+        event,
+        Event::Key { pressed: true, .. }
+            | Event::Text(_)
+            | Event::Ime(_)
+            | Event::Copy
+            | Event::Cut
+            | Event::Paste(_)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::{Modifiers, PointerButton, pos2};
+
+    fn key(key: Key) -> [Event; 2] {
+        [true, false].map(|pressed| {
+            let modifiers = Modifiers::NONE;
+            Event::Key { key, physical_key: None, pressed, repeat: false, modifiers }
+        })
+    }
+
+    fn click(x: f32) -> [Event; 2] {
+        let (pos, button, modifiers) = (pos2(x, 2.0), PointerButton::Primary, Modifiers::NONE);
+        [true, false].map(|pressed| Event::PointerButton { pos, button, pressed, modifiers })
+    }
+
+    /// All of the events as frames, each as the number of its events.
+    #[track_caller]
+    fn check(events: &[[Event; 2]], expected: &[usize]) {
+        let all = events.concat();
+        let (mut frames, mut rest) = (Vec::new(), all.clone());
+        while !rest.is_empty() {
+            let later = split_off_later(&mut rest);
+            frames.push(std::mem::replace(&mut rest, later));
+        }
+        assert_eq!(frames.iter().map(Vec::len).collect::<Vec<_>>(), expected);
+        assert_eq!(frames.concat(), all, "none is lost, and their order stays");
+    }
+
+    #[test]
+    fn what_is_typed_has_frames_to_itself() {
+        let text = |t: &str| [Event::Text(t.into()), Event::PointerMoved(pos2(0.0, 0.0))];
+        check(&[], &[]);
+        check(&[key(Key::A), text("a"), key(Key::B)], &[6]);
+        check(&[key(Key::A), click(1.0)], &[2, 2]);
+        check(&[click(1.0), key(Key::A), text("a")], &[2, 4]);
+        check(&[click(1.0), click(1.0), text("a"), click(1.0), text("b")], &[4, 2, 2, 2]);
+        check(&[key(Key::Escape), key(Key::Escape)], &[2, 2]);
+        check(&[key(Key::A), key(Key::Tab), text("b")], &[4, 2]);
+    }
+
+    #[test]
+    fn clicks_at_different_places_have_frames_of_their_own() {
+        check(&[click(1.0), click(2.0)], &[4]);
+        let way = |x: f32| [Event::PointerMoved(pos2(5.0, 2.0)), Event::PointerMoved(pos2(x, 2.0))];
+        check(&[way(1.0), click(1.0), way(20.0), click(20.0), click(20.0)], &[4, 6]);
+    }
+}
