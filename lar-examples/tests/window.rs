@@ -57,7 +57,7 @@ fn an_arrangement_is_asked_wrapped_measured_and_cut() {
     check_screen(&session, SIZE, &picture("window.png"));
     session.check_changes("numbers of the cells, vertices", 1_000, |s| {
         s.at_once(|s| {
-            ["696 313", "626 244"].iter().for_each(|at| s.xdotool(&format!("mousemove {at} click 1")))
+            ["696 313", "626 244"].iter().for_each(|at| s.xdotool(&format!("mousemove {at} click 1")));
         });
     });
     session.check_changes("an angle", 1_000, |s| {

@@ -41,7 +41,9 @@ impl ColorBar {
         let part = |i: u32, n: u32| f64::from(i) / f64::from(n);
         for i in 0..PIECES {
             let color = self.map.color(part(2 * i + 1, 2 * PIECES));
-            let piece = rectangle(WIDTHS[0], part(i, PIECES), part(i + 1, PIECES));
+            // Reaching into the next: side by side they would let the ground shine through where edges are smoothed.
+            let top = part(2 * i + 3, 2 * PIECES).min(1.0);
+            let piece = rectangle(WIDTHS[0], part(i, PIECES), top);
             scene.push(Drawable::mesh("colours", piece).color(color).unlit())?;
         }
         let style = TextStyle { size, horizontal: HorizontalAlign::Left, ..TextStyle::default() };
