@@ -68,7 +68,6 @@ pub(crate) fn assemble(
     );
     let (points, boundary_1) = below;
     let complex = ChainComplex::new(points, vec![boundary_1, boundary_2, boundary_3]);
-    course.finish(&mut stats);
     stats.grid_step = soup.grid.step();
     stats.facets = soup.n_facets() as u64;
     stats.triangulated_polygons = u64::from(soup.triangulated);

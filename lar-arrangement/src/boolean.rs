@@ -2,6 +2,7 @@
 //! and the cells where it holds are a 3-chain whose boundary ∂3 · chain is the surface of the result.
 
 use crate::arrangement::Arrangement;
+use crate::error::ArrangementError;
 use crate::evaluator::Evaluator;
 use crate::expression::Expression;
 use crate::progress::{Cancelled, Course};
@@ -72,9 +73,21 @@ pub enum BooleanError {
         /// How many there are.
         n_solids: usize,
     },
+    /// Surfaces that cannot be arranged.
+    #[error(transparent)]
+    Arrangement(ArrangementError),
     /// It was asked to stop ([`Cancel`](crate::Cancel)).
     #[error("cancelled")]
     Cancelled,
+}
+
+impl From<ArrangementError> for BooleanError {
+    fn from(error: ArrangementError) -> Self {
+        match error {
+            ArrangementError::Cancelled => Self::Cancelled,
+            other => Self::Arrangement(other),
+        }
+    }
 }
 
 impl From<Cancelled> for BooleanError {
@@ -135,9 +148,9 @@ impl Arrangement {
         expression: &Expression,
         rule: FillRule,
         course: &Course,
+        stats: &mut Stats,
     ) -> Result<Solid<'_>, BooleanError> {
-        let times = &mut Stats::default();
-        course.begin("cells", times)?;
+        course.begin("cells", stats)?;
         for solid in expression.operands() {
             self.check_operand(solid, rule)?;
         }
@@ -159,7 +172,6 @@ impl Arrangement {
             inside.extend((0..cells.len()).map(|bit| holds >> bit & 1 == 1));
             windings().for_each(|(&(solid, _), _)| bits[solid as usize] = 0);
         })?;
-        course.finish(times);
         course.go_on()?;
         Ok(self.solid(inside))
     }

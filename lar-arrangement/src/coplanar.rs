@@ -10,7 +10,7 @@ use crate::soup::Soup;
 ///
 /// All pairs of edges are tested: a facet has at most 64.
 pub(crate) fn meet(soup: &Soup, [f, g]: [u32; 2], out: &mut Contacts) -> bool {
-    let (axis, up) = soup.geometry.dominant_axis(f);
+    let (axis, _) = soup.geometry.dominant_axis(f);
     let (edges_f, edges_g) = (&soup.facet_edges[f as usize], &soup.facet_edges[g as usize]);
     for &e in edges_f {
         for &h in edges_g {
@@ -19,6 +19,13 @@ pub(crate) fn meet(soup: &Soup, [f, g]: [u32; 2], out: &mut Contacts) -> bool {
             }
         }
     }
+    overlap(soup, [f, g])
+}
+
+/// Whether the insides of two facets in one plane (may) overlap.
+pub(crate) fn overlap(soup: &Soup, [f, g]: [u32; 2]) -> bool {
+    let (axis, up) = soup.geometry.dominant_axis(f);
+    let (edges_f, edges_g) = (&soup.facet_edges[f as usize], &soup.facet_edges[g as usize]);
     let up_g = soup.geometry.normal_sign(g, axis) == Sign::Positive;
     !(separates(soup, edges_f, edges_g, axis, up) || separates(soup, edges_g, edges_f, axis, up_g))
 }

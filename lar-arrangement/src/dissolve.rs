@@ -115,7 +115,7 @@ fn is_dissolvable(edge: usize, skeleton: &Skeleton, rings: &Cells, soup: &Soup, 
 }
 
 /// The solids that have a face as part of their surface, by what a path across it does to their winding numbers.
-fn crossed(face: u32, skeleton: &Skeleton, soup: &Soup) -> Vec<(u32, i32)> {
+pub(crate) fn crossed(face: u32, skeleton: &Skeleton, soup: &Soup) -> Vec<(u32, i32)> {
     let of_facet = |p: &FacetParent| {
         let turn = if p.same_way { 1 } else { -1 };
         let coefficient = |p: &Parent| i32::from(soup.coefficients[p.solid as usize][p.face as usize]);

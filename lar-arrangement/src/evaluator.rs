@@ -4,7 +4,9 @@ use crate::arrangement::Arrangement;
 use crate::boolean::{BooleanError, FillRule, Solid};
 use crate::expression::Expression;
 use crate::progress::{Cancel, Control, Course, Plan, Progress};
-use crate::simplify::{self, Detail, SolidComplex};
+use crate::simplify::{self, Detail};
+use crate::solid_complex::SolidComplex;
+use crate::stats::Stats;
 
 /// The only stage of an expression.
 const CELLS: &Plan = &[("cells", 100)];
@@ -81,7 +83,10 @@ impl<'a> Evaluator<'a> {
         arrangement: &'b Arrangement,
         expression: &Expression,
     ) -> Result<Solid<'b>, BooleanError> {
-        arrangement.solid_where(expression, self.fill, &Course::new(self.control, CELLS))
+        let (course, mut times) = (Course::new(self.control, CELLS), Stats::default());
+        let solid = arrangement.solid_where(expression, self.fill, &course, &mut times)?;
+        course.finish(&mut times);
+        Ok(solid)
     }
 
     /// The surface of a solid as a 2-complex. O(size of the surface) expected, with O(size of the arrangement) memory.
@@ -89,6 +94,9 @@ impl<'a> Evaluator<'a> {
     /// # Errors
     /// When the work was cancelled.
     pub fn surface(&self, solid: &Solid<'_>) -> Result<SolidComplex, BooleanError> {
-        Ok(simplify::surface(solid, self.detail, &Course::new(self.control, simplify::PLAN))?)
+        let (course, mut times) = (Course::new(self.control, simplify::PLAN), Stats::default());
+        let surface = simplify::surface(solid, self.detail, &course, &mut times)?;
+        course.finish(&mut times);
+        Ok(surface)
     }
 }

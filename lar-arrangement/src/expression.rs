@@ -7,7 +7,7 @@
 
 /// One step of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Step {
+pub(crate) enum Step {
     Operand(u32),
     Complement,
     Binary(Operator),
@@ -15,7 +15,7 @@ enum Step {
 
 /// Operators of two arguments, in the order in which they bind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Operator {
+pub(crate) enum Operator {
     Union,
     SymmetricDifference,
     Difference,
@@ -184,6 +184,11 @@ impl Expression {
     /// The value where `inside` says which solids contain the point. O(length).
     pub fn evaluate(&self, inside: impl Fn(usize) -> bool) -> bool {
         self.evaluate_bits(&mut Vec::new(), |solid| u64::from(inside(solid))) & 1 == 1
+    }
+
+    /// Operands and operators in reverse Polish order.
+    pub(crate) fn program(&self) -> &[Step] {
+        &self.program
     }
 
     /// Number of operands and operators.

@@ -110,12 +110,21 @@ impl Fragments {
     }
 }
 
+/// Whether all contacts of the facets are known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Extent {
+    Everywhere,
+    /// Not where they do not matter to a result: edges that lie over each other may be split at different points there.
+    NearResult,
+}
+
 /// What fragmentation reads.
 pub(crate) struct Fragmenter<'a> {
     pub soup: &'a Soup,
     pub cuts: &'a Cuts,
     /// Vertices known to all facets.
     pub vertices: &'a [Vertex],
+    pub extent: Extent,
     /// Without reports: the work in a group is part of a chunk.
     pub course: Course<'a>,
 }
@@ -196,6 +205,9 @@ struct Use {
     member: u32,
     sign: i8,
 }
+
+/// A boundary piece, by whom it is used, and the input edge that it is part of.
+type Used = (Piece, Use, u32);
 
 /// One group with its own numbering of vertices.
 struct Local<'a> {
@@ -281,15 +293,73 @@ impl<'a> Local<'a> {
                     } else {
                         ([b, a], piece.direction.opposite(), -1)
                     };
-                    all.push((Piece { ends, direction, ..piece }, Use { member, sign }));
+                    all.push((Piece { ends, direction, ..piece }, Use { member, sign }, edge / 2));
                 });
             }
         }
-        all.sort_by_key(|(piece, used)| (piece.ends, used.member));
-        for same in all.chunk_by(|a, b| a.0.ends == b.0.ends) {
-            self.pieces.push(Piece { soft: same.iter().all(|(p, _)| p.soft), ..same[0].0 });
-            self.uses.push(same.iter().map(|(_, used)| *used).collect());
+        if self.from.extent == Extent::NearResult && self.group.len() > 1 {
+            all = self.split_at_each_other(all);
         }
+        all.sort_by_key(|(piece, used, _)| (piece.ends, used.member));
+        for same in all.chunk_by(|a, b| a.0.ends == b.0.ends) {
+            self.pieces.push(Piece { soft: same.iter().all(|(p, _, _)| p.soft), ..same[0].0 });
+            self.uses.push(same.iter().map(|(_, used, _)| *used).collect());
+        }
+    }
+
+    /// The pieces, split where an end of one lies inside of another.
+    fn split_at_each_other(&self, all: Vec<Used>) -> Vec<Used> {
+        let around = |ends: [u32; 2]| Aabb::around(ends.map(|v| self.vertex(v).at));
+        let tree = BoxTree::new(&all.iter().map(|(piece, ..)| around(piece.ends)).collect::<Vec<_>>());
+        let mut points: Vec<u32> = all.iter().flat_map(|(piece, ..)| piece.ends).collect();
+        points.sort_unstable();
+        points.dedup();
+        let mut splits: Vec<(u32, u32)> = Vec::new();
+        for p in points {
+            tree.query(&around([p; 2]), |i| {
+                if self.is_inside(p, &all[i as usize]) {
+                    splits.push((i, p));
+                }
+            });
+        }
+        splits.sort_unstable();
+        let mut rest = splits.as_slice();
+        let mut out = Vec::with_capacity(all.len() + splits.len());
+        for ((piece, used, edge), i) in all.into_iter().zip(0..) {
+            let (here, after) = rest.split_at(rest.partition_point(|split| split.0 <= i));
+            rest = after;
+            let (axis, sign) = self.geometry().axis_of(&piece.direction);
+            let mut stops: Vec<u32> = here.iter().map(|split| split.1).collect();
+            stops.sort_by(|&a, &b| self.geometry().cmp_coordinate(self.vertex(a), self.vertex(b), axis));
+            if sign == Sign::Negative {
+                stops.reverse();
+            }
+            let mut tail = piece.ends[0];
+            for head in stops.into_iter().chain([piece.ends[1]]) {
+                let (ends, direction, sign) = if tail < head {
+                    ([tail, head], piece.direction, used.sign)
+                } else {
+                    ([head, tail], piece.direction.opposite(), -used.sign)
+                };
+                out.push((Piece { ends, direction, ..piece }, Use { sign, ..used }, edge));
+                tail = head;
+            }
+        }
+        out
+    }
+
+    /// Whether a vertex lies inside of a boundary piece.
+    fn is_inside(&self, p: u32, (piece, _, edge): &Used) -> bool {
+        let geometry = self.geometry();
+        let (axis, sign) = geometry.axis_of(&piece.direction);
+        let [first, last] = if sign == Sign::Positive { piece.ends } else { [piece.ends[1], piece.ends[0]] };
+        let (upright, _) = geometry.dominant_axis(self.group[0]);
+        let ends = self.from.soup.edges[*edge as usize];
+        let v = self.vertex(p);
+        !piece.ends.contains(&p)
+            && geometry.cmp_coordinate(self.vertex(first), v, axis).is_lt()
+            && geometry.cmp_coordinate(v, self.vertex(last), axis).is_lt()
+            && geometry.side(v, Support::Vertical { ends, axis: upright as u8 }) == Sign::Zero
     }
 
     /// The segments inside the members, each once, and the points that may lie on them.

@@ -9,13 +9,14 @@ use crate::check;
 use crate::coplanar;
 use crate::crossing::{self, Contacts, Scratch};
 use crate::curve;
-use crate::dissolve;
+use crate::dissolve::{self, Dissolved};
 use crate::error::ArrangementError;
-use crate::fragment::{Fragmenter, Fragments, Groups};
+use crate::fragment::{Extent, Fragmenter, Fragments, Groups};
 use crate::interner::Interner;
 use crate::nest::Nesting;
 use crate::parallel;
 use crate::progress::{Cancel, Cancelled, Control, Course, Plan, Progress};
+use crate::rays::Rays;
 use crate::skeleton::Skeleton;
 use crate::soup::{Placed, Soup};
 use crate::split::Cuts;
@@ -24,7 +25,7 @@ use crate::stats::Stats;
 use crate::tiles::{self, Merge};
 use crate::union_find::UnionFind;
 use crate::wrap;
-use lar_core::{Precision, Surface};
+use lar_core::{Cells, Precision, Surface};
 use std::num::NonZeroUsize;
 
 /// Pairs of facets a chunk of work.
@@ -87,11 +88,11 @@ const SHORT: u32 = 6;
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Arranger<'a> {
-    threads: Option<NonZeroUsize>,
+    pub(crate) threads: Option<NonZeroUsize>,
     checks: Checks,
     planes: Planes,
     merge: Merge,
-    control: Control<'a>,
+    pub(crate) control: Control<'a>,
 }
 
 /// The arrangement of some surfaces with the default options.
@@ -205,53 +206,78 @@ impl<'a> Arranger<'a> {
     fn run(&self, surfaces: &[Surface]) -> Result<Arrangement, ArrangementError> {
         let mut stats = Stats::default();
         let course = Course::new(self.control, PLAN);
-        let (mut soup, meeting) = self.soup_and_pairs(surfaces, &mut stats, &course)?;
-        if self.merge == Merge::Coplanar {
-            tiles::soften(&mut soup);
-        }
-        course.begin("contacts", &mut stats)?;
-        let mut contacts = contacts(&soup, &meeting.pairs, &course)?;
-        stats.pairs_tested = meeting.pairs.len() as u64;
-        stats.pairs_crossing = contacts.crossing_pairs;
-        let overlapping = overlapping(&soup, &mut contacts, &course)?;
-        let mut interner = Interner::new(&soup.geometry, std::mem::take(&mut soup.point_ids));
-        let cuts = Cuts::new(&soup, contacts, &mut interner);
-        let groups = Groups::new(&soup, &cuts, overlapping);
-        self.check(|| check::cuts(&soup, &cuts, &interner.vertices))?;
-        stats.coplanar_groups = groups.n_overlapping();
-        course.begin("fragmentation", &mut stats)?;
-        let fragments = fragments(&soup, &cuts, &interner, &groups, &course)?;
-        course.begin("congruence", &mut stats)?;
-        let mut skeleton = Skeleton::new(fragments, &groups, interner, &soup, &cuts);
-        self.check(|| check::skeleton(&skeleton, &soup.geometry))?;
-        course.begin("gift wrapping", &mut stats)?;
-        let rings = wrap::rings(&skeleton, &soup.geometry);
-        let (shell_of_side, n_shells) = wrap::shells(&rings, skeleton.n_faces());
-        self.check(|| check::shells(&skeleton, &shell_of_side))?;
-        course.begin("nesting", &mut stats)?;
-        let nesting = Nesting {
-            skeleton: &skeleton,
-            geometry: &soup.geometry,
-            rings: &rings,
-            shell_of_side: &shell_of_side,
-            n_shells,
-            tree: &meeting.tree,
-        };
-        let (cell_of_shell, n_cells) = nesting.cells(&course)?;
-        course.begin("membership", &mut stats)?;
-        let dissolved = if skeleton.soft.contains(&true) {
-            dissolve::dissolve(&skeleton, &rings, &soup, self.merge)
-        } else {
-            dissolve::unchanged(&mut skeleton, rings)
-        };
-        let shells = Shells { of_side: &shell_of_side, n: n_shells, cell_of: &cell_of_shell, n_cells };
-        let out = assemble(surfaces, soup, skeleton, dissolved, &shells, (stats, &course))?;
+        let (soup, meeting) = self.soup_and_pairs(surfaces, &mut stats, &course)?;
+        let mut out = self.arranged(surfaces, soup, meeting, (stats, &course))?;
+        course.finish(&mut out.stats);
         self.check(|| check::arrangement(&out))?;
         Ok(out)
     }
 
+    /// Stages 2 to 6 for all cells.
+    pub(crate) fn arranged(
+        &self,
+        surfaces: &[Surface],
+        mut soup: Soup,
+        meeting: Meeting,
+        (mut stats, course): (Stats, &Course),
+    ) -> Result<Arrangement, ArrangementError> {
+        let (mut skeleton, rings) =
+            self.skeleton(&mut soup, (&meeting.pairs, Extent::Everywhere), &mut stats, course)?;
+        let (shell_of_side, n_shells) = wrap::shells(&rings, skeleton.n_faces());
+        self.check(|| check::shells(&skeleton, &shell_of_side))?;
+        course.begin("nesting", &mut stats)?;
+        let rays = Rays { skeleton: &skeleton, geometry: &soup.geometry, rings: &rings, tree: &meeting.tree };
+        let nesting = Nesting { rays, shell_of_side: &shell_of_side, n_shells };
+        let (cell_of_shell, n_cells) = nesting.cells(course)?;
+        course.begin("membership", &mut stats)?;
+        let dissolved = self.dissolved(&mut skeleton, rings, &soup);
+        let shells = Shells { of_side: &shell_of_side, n: n_shells, cell_of: &cell_of_shell, n_cells };
+        Ok(assemble(surfaces, soup, skeleton, dissolved, &shells, (stats, course))?)
+    }
+
+    /// Stages 2 to 4: the faces, and their order around the edges.
+    pub(crate) fn skeleton(
+        &self,
+        soup: &mut Soup,
+        (pairs, extent): (&[[u32; 2]], Extent),
+        stats: &mut Stats,
+        course: &Course,
+    ) -> Result<(Skeleton, Cells), ArrangementError> {
+        if self.merge == Merge::Coplanar {
+            tiles::soften(soup);
+        }
+        course.begin("contacts", stats)?;
+        let mut contacts = contacts(soup, pairs, course)?;
+        stats.pairs_tested = pairs.len() as u64;
+        stats.pairs_crossing = contacts.crossing_pairs;
+        let overlapping = overlapping(soup, &mut contacts, course)?;
+        let mut interner = Interner::new(&soup.geometry, std::mem::take(&mut soup.point_ids));
+        let cuts = Cuts::new(soup, contacts, &mut interner);
+        let groups = Groups::new(soup, &cuts, overlapping);
+        self.check(|| check::cuts(soup, &cuts, &interner.vertices))?;
+        stats.coplanar_groups = groups.n_overlapping();
+        course.begin("fragmentation", stats)?;
+        let fragmenter =
+            Fragmenter { soup, cuts: &cuts, vertices: &interner.vertices, extent, course: course.quiet() };
+        let fragments = fragments(&fragmenter, &groups, course)?;
+        course.begin("congruence", stats)?;
+        let skeleton = Skeleton::new(fragments, &groups, interner, soup, &cuts);
+        self.check(|| check::skeleton(&skeleton, &soup.geometry))?;
+        course.begin("gift wrapping", stats)?;
+        let rings = wrap::rings(&skeleton, &soup.geometry);
+        Ok((skeleton, rings))
+    }
+
+    pub(crate) fn dissolved(&self, skeleton: &mut Skeleton, rings: Cells, soup: &Soup) -> Dissolved {
+        if skeleton.soft.contains(&true) {
+            dissolve::dissolve(skeleton, &rings, soup, self.merge)
+        } else {
+            dissolve::unchanged(skeleton, rings)
+        }
+    }
+
     /// Stage 1, and the pairs of facets whose boxes meet and that may have more in common than neighbours in a mesh.
-    fn soup_and_pairs(
+    pub(crate) fn soup_and_pairs(
         &self,
         surfaces: &[Surface],
         stats: &mut Stats,
@@ -322,12 +348,12 @@ fn facet_tree(soup: &Soup, charts: &Charts, reach: f64) -> BoxTree {
 }
 
 /// Which facets may have something in common.
-struct Meeting {
-    tree: BoxTree,
+pub(crate) struct Meeting {
+    pub tree: BoxTree,
     charts: Charts,
     stars: Stars,
     /// Those whose boxes meet, without those that a chart or a clean point settles.
-    pairs: Vec<[u32; 2]>,
+    pub pairs: Vec<[u32; 2]>,
 }
 
 impl Meeting {
@@ -375,13 +401,10 @@ fn overlapping(soup: &Soup, contacts: &mut Contacts, course: &Course) -> Result<
 }
 
 fn fragments(
-    soup: &Soup,
-    cuts: &Cuts,
-    interner: &Interner,
+    fragmenter: &Fragmenter<'_>,
     groups: &Groups,
     course: &Course,
 ) -> Result<Vec<Fragments>, Cancelled> {
-    let fragmenter = Fragmenter { soup, cuts, vertices: &interner.vertices, course: course.quiet() };
     let (n_chunks, range) = parallel::chunks(groups.members.len(), GROUPS_A_CHUNK);
     course.map(n_chunks, |chunk| {
         let mut out = Fragments::default();

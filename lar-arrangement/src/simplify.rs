@@ -9,6 +9,7 @@ use crate::evaluator::Evaluator;
 use crate::merge::{self, Faces, Merged, Removal};
 use crate::operators::{boundary_1, boundary_2};
 use crate::progress::{Cancelled, Course, Plan};
+use crate::solid_complex::SolidComplex;
 use crate::soup::Parent;
 use crate::split::offsets;
 use crate::stats::Stats;
@@ -33,83 +34,6 @@ pub enum Detail {
     Simplified,
 }
 
-/// The surface of a solid: vertices, ∂1 and ∂2, all faces oriented outwards.
-#[derive(Clone, Debug)]
-pub struct SolidComplex {
-    /// The 2-complex.
-    pub complex: ChainComplex,
-    /// Vertices of the loops, the face on their left seen from outside.
-    loops: Cells,
-    face_loops: Vec<u32>,
-    parents: Vec<Parent>,
-    /// The parents of face f are `parent_offsets[f]..parent_offsets[f + 1]`.
-    parent_offsets: Vec<u32>,
-    pieces: Vec<(FaceId, i8)>,
-}
-
-impl SolidComplex {
-    /// Number of faces.
-    #[must_use]
-    pub fn n_faces(&self) -> usize {
-        self.pieces.len()
-    }
-
-    /// Number of loops of all faces.
-    #[must_use]
-    pub fn n_loops(&self) -> usize {
-        self.loops.len()
-    }
-
-    /// Vertices of the loops of a face, the outer one first.
-    pub fn face_loops(&self, face: FaceId) -> impl ExactSizeIterator<Item = &[u32]> + Clone + '_ {
-        (self.face_loops[face.index()]..self.face_loops[face.index() + 1]).map(|l| &self.loops[l as usize])
-    }
-
-    /// The input faces that a face is made of pieces of; the sign is +1 where they look the same way.
-    #[must_use]
-    pub fn parents(&self, face: FaceId) -> &[Parent] {
-        let f = face.index();
-        &self.parents[self.parent_offsets[f] as usize..self.parent_offsets[f + 1] as usize]
-    }
-
-    /// The first of the arrangement's faces that a face is made of, and +1 where they look the same way, −1 where not.
-    #[must_use]
-    pub fn piece(&self, face: FaceId) -> (FaceId, i8) {
-        self.pieces[face.index()]
-    }
-
-    /// V − E + Σ over faces of (2 − loops). O(faces).
-    #[must_use]
-    pub fn euler(&self) -> i64 {
-        let faces: i64 = self.face_loops.windows(2).map(|w| 2 - i64::from(w[1] - w[0])).sum();
-        self.complex.n_cells(0) as i64 - self.complex.n_cells(1) as i64 + faces
-    }
-
-    /// Whether the surface is a cycle: ∂2 applied to the sum of all faces is zero. O(size).
-    #[must_use]
-    pub fn is_closed(&self) -> bool {
-        let boundary = self.complex.boundary(2);
-        let mut sums = vec![0i32; boundary.rows()];
-        for (&edge, &sign) in boundary.indices().iter().zip(boundary.data()) {
-            sums[edge as usize] += i32::from(sign);
-        }
-        sums.iter().all(|&s| s == 0)
-    }
-
-    /// Number of connected components of the surface. O(n α(n)).
-    #[must_use]
-    pub fn n_components(&self) -> usize {
-        let n = self.complex.n_cells(0);
-        let mut sets = UnionFind::new(n + self.n_faces());
-        for face in 0..self.n_faces() as u32 {
-            for &v in self.face_loops(FaceId(face)).flatten() {
-                sets.union(v, n as u32 + face);
-            }
-        }
-        sets.labels().1 as usize
-    }
-}
-
 impl Solid<'_> {
     /// Its surface as a 2-complex. O(size of the surface) expected, with O(size of the arrangement) memory.
     #[must_use]
@@ -119,21 +43,25 @@ impl Solid<'_> {
 }
 
 /// The surface of a solid as a 2-complex.
-pub(crate) fn surface(solid: &Solid<'_>, detail: Detail, course: &Course) -> Result<SolidComplex, Cancelled> {
-    let times = &mut Stats::default();
-    course.begin("surface", times)?;
+pub(crate) fn surface(
+    solid: &Solid<'_>,
+    detail: Detail,
+    course: &Course,
+    stats: &mut Stats,
+) -> Result<SolidComplex, Cancelled> {
+    course.begin("surface", stats)?;
     let surface = OutwardFaces::new(solid, course)?;
-    course.begin("coplanar faces", times)?;
+    course.begin("coplanar faces", stats)?;
     let (removed, new_face, n_new_faces) = match detail {
         Detail::Fragments => surface.all_faces(),
         Detail::Simplified => surface.merged_faces(course)?,
     };
-    course.begin("straight edges", times)?;
+    course.begin("straight edges", stats)?;
     let straight = match detail {
         Detail::Fragments => Default::default(),
         Detail::Simplified => surface.straight_vertices(&removed, &new_face),
     };
-    course.begin("loops", times)?;
+    course.begin("loops", stats)?;
     let points = solid.arrangement.complex().points();
     let origins = Origins::new(&surface, &new_face, n_new_faces);
     let (merged, vertices) = if removed.contains(&true) || !straight.is_empty() {
@@ -145,10 +73,8 @@ pub(crate) fn surface(solid: &Solid<'_>, detail: Detail, course: &Course) -> Res
     } else {
         surface.unchanged()
     };
-    course.begin("complex", times)?;
-    let out = finished(merged, origins, points, &vertices);
-    course.finish(times);
-    Ok(out)
+    course.begin("complex", stats)?;
+    Ok(finished(merged, origins, points, &vertices))
 }
 
 /// A surface whose vertices are some of the points.
@@ -167,7 +93,7 @@ fn finished(merged: Merged, origins: Origins, points: &Points, vertices: &[u32])
         face_loops: merged.face_loops,
         parents: origins.parents,
         parent_offsets: origins.parent_offsets,
-        pieces: origins.pieces,
+        normals: origins.normals,
     }
 }
 
@@ -175,28 +101,30 @@ fn finished(merged: Merged, origins: Origins, points: &Points, vertices: &[u32])
 struct Origins {
     parents: Vec<Parent>,
     parent_offsets: Vec<u32>,
-    /// The first face of the arrangement that is part of each.
-    pieces: Vec<(FaceId, i8)>,
+    /// Those of the first piece of each.
+    normals: Vec<[f64; 3]>,
 }
 
 impl Origins {
     fn new(surface: &OutwardFaces<'_>, new_face: &[u32], n_new_faces: usize) -> Self {
         let mut parents: Vec<(u32, Parent)> = Vec::with_capacity(surface.faces.len());
         // New faces are numbered as their first pieces come.
-        let mut pieces = Vec::with_capacity(n_new_faces);
+        let a = surface.solid.arrangement;
+        let mut normals = Vec::with_capacity(n_new_faces);
         for (&(face, sign), &new) in surface.faces.iter().zip(new_face) {
-            if pieces.len() == new as usize {
-                pieces.push((face, sign));
+            if normals.len() == new as usize {
+                let normal = a.geometry.normal(a.facet_of_face[face.index()]);
+                normals.push(normal.map(|x| x * f64::from(sign)));
             }
             let signed = |p: &Parent| (new, Parent { sign: p.sign * sign, ..*p });
-            parents.extend(surface.solid.arrangement.parents(face).iter().map(signed));
+            parents.extend(a.parents(face).iter().map(signed));
         }
         parents.sort_unstable();
         parents.dedup();
         Self {
             parent_offsets: offsets(n_new_faces, parents.iter().map(|p| p.0)),
             parents: parents.into_iter().map(|p| p.1).collect(),
-            pieces,
+            normals,
         }
     }
 }

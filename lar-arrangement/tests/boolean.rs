@@ -47,22 +47,14 @@ fn check(a: &Arrangement, text: &str, volume: f64, fragments: usize, simplified:
     for (name, surface) in [("fragments", &full), ("simplified", &simple)] {
         assert!(surface.is_closed(), "{text}: {name} is open");
         assert_eq!(surface.complex.validate(), [], "{text}: {name}");
-        let area: f64 = (0..surface.n_faces()).map(|f| surface.complex.face_area(f)).sum();
+        let area = surface.area();
         assert!((area - solid.area()).abs() < 1e-9, "{text}: {name} has area {area}, not {}", solid.area());
-        let volume: f64 = (0..surface.n_faces()).map(|f| face_volume(surface, f)).sum();
+        let volume = surface.volume();
         assert!((volume - solid.volume()).abs() < 1e-9, "{text}: {name} has volume {volume}");
     }
     let counts = [simple.complex.n_cells(0), simple.complex.n_cells(1), simple.n_faces()];
     assert_eq!(counts, simplified, "{text}: simplified");
     assert_eq!(full.euler(), simple.euler(), "{text}: simplification keeps the topology");
-}
-
-/// A face's share of the volume by the divergence theorem.
-fn face_volume(surface: &lar_arrangement::SolidComplex, face: usize) -> f64 {
-    let area = surface.complex.face_area_vector(face);
-    let v = surface.face_loops(FaceId(face as u32)).next().expect("faces have loops")[0];
-    let p = surface.complex.points().xyz(v as usize);
-    (0..3).map(|k| p[k] * area[k]).sum::<f64>() / 3.0
 }
 
 #[test]

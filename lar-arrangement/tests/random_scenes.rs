@@ -333,9 +333,9 @@ fn check_surface(a: &Arrangement, text: &str) {
         let out = solid.to_complex(detail);
         assert!(out.is_closed(), "{text}: {detail:?}");
         assert_eq!(out.complex.validate(), [], "{text}: {detail:?}");
-        let found: f64 = (0..out.n_faces()).map(|f| share(&out, f)).sum();
+        let found = out.volume();
         assert!((found - volume).abs() <= ROUNDING * size, "{text}, {detail:?}: {found}, not {volume}");
-        let area: f64 = (0..out.n_faces()).map(|f| out.complex.face_area(f)).sum();
+        let area = out.area();
         assert!((area - solid.area()).abs() <= ROUNDING * area, "{text}, {detail:?}: area {area}");
     }
 }
@@ -344,14 +344,6 @@ fn check_surface(a: &Arrangement, text: &str) {
 fn cut_off(a: &Arrangement, cells: &[CellId]) -> f64 {
     let all = (1..a.n_cells() as u32).map(CellId);
     all.filter(|c| cells.binary_search(c).is_err()).map(|c| a.volumes()[c.index()]).sum()
-}
-
-/// A face's share of the volume by the divergence theorem.
-fn share(out: &SolidComplex, face: usize) -> f64 {
-    let area = out.complex.face_area_vector(face);
-    let v = out.face_loops(FaceId(face as u32)).next().expect("faces have loops")[0];
-    let p = out.complex.points().xyz(v as usize);
-    (0..3).map(|k| p[k] * area[k]).sum::<f64>() / 3.0
 }
 
 fn result(input: &[Surface], text: &str) -> (f64, Surface) {

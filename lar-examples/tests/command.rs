@@ -112,6 +112,54 @@ fn boolean_of_the_three_cubes() {
     assert!(printed.starts_with("A-B|C: "), "{printed}");
 }
 
+/// With and without the cells the same file, and the same numbers of it.
+#[track_caller]
+fn check_alone(place: &Place, line: &str) {
+    let [cells, alone] = ["cells", "alone"].map(|name| {
+        let more = format!("-o {name}.obj --json -{}", if name == "alone" { " --surface-only" } else { "" });
+        let report = done(place, &[words(line), words(&more)].concat()).out;
+        (serde_json::from_str::<Value>(&report).unwrap(), place.read(&format!("{name}.obj")))
+    });
+    let number = |report: &Value, name: &str| report[name].as_f64();
+    for name in ["volume", "area"] {
+        let [a, b] = [&cells.0, &alone.0].map(|report| number(report, name));
+        assert_eq!(a.is_some(), b.is_some(), "{line}: {name}");
+        assert!((a.unwrap_or(0.0) - b.unwrap_or(0.0)).abs() < 1e-9, "{line}: {name} {a:?} {b:?}");
+    }
+    for name in
+        ["vertices", "edges", "faces", "triangles", "components", "loops", "closed", "bounded", "euler"]
+    {
+        assert_eq!(cells.0[name], alone.0[name], "{line}: {name}");
+    }
+    assert_eq!(cells.1, alone.1, "{line}");
+}
+
+#[test]
+fn surfaces_without_cells() {
+    let place = Place::with_cubes();
+    for line in
+        ["A-B|C a.obj b.obj c.obj", "!A&!B a.obj b.obj", "A-A a.obj", "A^B a.obj b.obj --keep-fragments"]
+    {
+        check_alone(&place, &format!("boolean {line}"));
+    }
+    let printed = done(&place, &words("boolean A|B a.obj b.obj -o out.stl --surface-only")).out;
+    assert!(printed.starts_with("A|B: "), "{printed}");
+    let line = "boolean -e x=A a.obj -o results --surface-only";
+    let both = place.lar(&words(line));
+    assert_eq!(both.code, 2);
+    assert!(both.err.contains("cannot be used with"), "{}", both.err);
+    // What is refused is refused in the same words.
+    let cube = place.read("a.obj");
+    place.write("open.obj", &cube[..cube.trim_end().rfind('\n').expect("lines")]);
+    let refused = ["", " --surface-only"].map(|more| {
+        let run = place.lar(&words(&format!("boolean A|B open.obj a.obj -o no.obj{more}")));
+        (run.code, run.err)
+    });
+    assert_eq!(refused[0], refused[1]);
+    assert_eq!(refused[0].0, 2);
+    assert!(!place.path("no.obj").exists());
+}
+
 /// Volume of an expression over the three cubes, as the command computes it.
 #[track_caller]
 fn check_volume(expression: &str, fill: &str, expected: Option<f64>) {

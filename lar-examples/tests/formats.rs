@@ -55,6 +55,7 @@ fn reports_have_the_documented_fields() {
     place.write("plan.svg", std::fs::read(fixture("apartment.svg")).expect("a fixture"));
     check(&place, "arrange a.obj b.obj --complex complex.json", "arrange");
     check(&place, "boolean A-B a.obj b.obj -o out.obj", "boolean");
+    check(&place, "boolean A-B a.obj b.obj -o alone.obj --surface-only", "boolean-surface");
     check(&place, "boolean -e x=A-B -e y=A&B a.obj b.obj -o results", "boolean-batch");
     check(&place, "clean a.obj -o out.obj", "clean");
     check(&place, "measure a.obj b.obj", "measure");
@@ -65,7 +66,7 @@ fn reports_have_the_documented_fields() {
     check(&place, "plane plan.svg", "plane");
     check(&place, "plane --boolean walls-openings plan.svg", "plane-boolean");
     let reports = DOCUMENT.split("\n### ").skip(1).count();
-    assert_eq!(reports, 11, "each report of the document is checked above");
+    assert_eq!(reports, 12, "each report of the document is checked above");
 }
 
 /// Every format of the first table is read and written as it says.

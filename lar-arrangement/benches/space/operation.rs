@@ -49,12 +49,12 @@ impl Job {
     }
 
     pub(crate) fn run(&self, operation: Operation) -> Result<Outcome, Box<dyn Error>> {
-        let arrangement = self.arranger.arrange(&self.surfaces)?;
         Ok(match operation {
-            Operation::Cells => Outcome::Cells(Box::new(arrangement)),
+            Operation::Cells => Outcome::Cells(Box::new(self.arranger.arrange(&self.surfaces)?)),
             Operation::Boolean => {
-                let solid = arrangement.boolean(&self.expression, FillRule::NonZero)?;
-                Outcome::Boolean(Box::new(solid.to_complex(Detail::Simplified)), arrangement.stats().clone())
+                let (rule, detail) = (FillRule::NonZero, Detail::Simplified);
+                let (solid, stats) = self.arranger.boolean(&self.surfaces, &self.expression, rule, detail)?;
+                Outcome::Boolean(Box::new(solid), stats)
             }
         })
     }
@@ -94,7 +94,7 @@ impl Outcome {
     pub(crate) fn volume(&self) -> f64 {
         match self {
             Self::Cells(arrangement) => arrangement.volumes().into_iter().skip(1).sum(),
-            Self::Boolean(solid, _) => volume(solid),
+            Self::Boolean(solid, _) => solid.volume(),
         }
     }
 
@@ -102,46 +102,7 @@ impl Outcome {
     pub(crate) fn area(&self) -> f64 {
         match self {
             Self::Cells(a) => 2.0 * (0..a.n_faces() as u32).map(|face| a.area(FaceId(face))).sum::<f64>(),
-            Self::Boolean(solid, _) => area(solid),
+            Self::Boolean(solid, _) => solid.area(),
         }
     }
-}
-
-/// From the loops alone: a loop is a fan of triangles, those of holes count against the others.
-fn volume(solid: &SolidComplex) -> f64 {
-    let triangles = faces(solid).flat_map(|face| triangles(solid, face));
-    triangles.map(|[a, b, c]| dot(a, cross(b, c)) / 6.0).sum()
-}
-
-fn area(solid: &SolidComplex) -> f64 {
-    let vector = |face| {
-        let products = triangles(solid, face).map(|[a, b, c]| cross(minus(b, a), minus(c, a)));
-        products.fold([0.0; 3], |sum, v| [0, 1, 2].map(|k| sum[k] + v[k] / 2.0))
-    };
-    faces(solid).map(vector).map(|v| dot(v, v).sqrt()).sum()
-}
-
-fn faces(solid: &SolidComplex) -> impl Iterator<Item = FaceId> {
-    (0..solid.n_faces() as u32).map(FaceId)
-}
-
-fn triangles(solid: &SolidComplex, face: FaceId) -> impl Iterator<Item = [[f64; 3]; 3]> + '_ {
-    let point = |v: u32| solid.complex.points().xyz(v as usize);
-    let fan = move |cycle: &'_ [u32]| {
-        let corners: Vec<_> = cycle.iter().map(|&v| point(v)).collect();
-        (2..corners.len()).map(move |i| [corners[0], corners[i - 1], corners[i]])
-    };
-    solid.face_loops(face).flat_map(fan)
-}
-
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|k| a[k] - b[k])
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {
-    [b * z - c * y, c * x - a * z, a * y - b * x]
 }

@@ -1,5 +1,7 @@
 //! `lar boolean`: Boolean expressions over the inputs, as surfaces.
 
+mod alone;
+
 use super::input::{Operands, operands};
 use super::report::{Coplanarity, Json, Moves, Operand, Stages, Threads, arrange};
 use super::result::{Counts, Surfaces};
@@ -20,6 +22,7 @@ use std::time::{Duration, Instant};
     after_help = "Examples:\n  \
                   lar boolean 'A - (B | C)' a.obj b.stl c.ply -o out.obj\n  \
                   lar boolean 'body - hole' body=plate.stl hole=rod.stl -o out.stl --json -\n  \
+                  lar boolean 'A | B | C' a.obj b.obj c.obj -o out.obj --surface-only\n  \
                   lar boolean -e both='A & B' -e rest='A - B' a.obj b.obj -o results --format stl"
 )]
 pub(crate) struct Boolean {
@@ -47,6 +50,10 @@ pub(crate) struct Boolean {
     /// Keep the faces as the inputs cut them, instead of merging those of one plane.
     #[arg(long)]
     keep_fragments: bool,
+    /// Find the surface of one expression without the cells of the arrangement: the same surface, several times sooner
+    /// where many inputs overlap.
+    #[arg(long, conflicts_with = "expressions")]
+    surface_only: bool,
     #[command(flatten)]
     coplanarity: Coplanarity,
     #[command(flatten)]
@@ -176,6 +183,9 @@ impl Boolean {
         let names = operands.names();
         let task = |&(name, text)| Ok(Task { name, text, expression: Expression::parse(text, &names)? });
         let tasks: Vec<Task<'_>> = texts.iter().map(task).collect::<Result<_, CommandError>>()?;
+        if self.surface_only {
+            return self.run_alone(&tasks[0], &operands, start, out);
+        }
         let (arrangement, time) = arrange(&operands.surfaces, self.threads, self.coplanarity)?;
         let mut results = self.results(&tasks, &arrangement, &operands)?;
         let common = self.common(&arrangement, &operands, &results, (time, start));
@@ -225,7 +235,7 @@ impl Boolean {
                 .solid(arrangement, &task.expression)
                 .map_err(|source| CommandError::Boolean { file: operands.file_of(&source), source })?;
             let surfaces = Surfaces::new(&solid, &evaluator, before)?;
-            Ok((Counts::new(arrangement, &volumes, &solid, &surfaces), surfaces))
+            Ok((Counts::new(&volumes, &solid, &surfaces), surfaces))
         };
         tasks.iter().map(result).collect()
     }

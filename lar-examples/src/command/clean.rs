@@ -119,7 +119,7 @@ impl Clean {
         surfaces.write(&self.output)?;
         let Some(input) = Operand::all(&arrangement, &operands).pop() else { return Ok(()) };
         let report = Report {
-            counts: Counts::new(&arrangement, &arrangement.volumes(), &solid, &surfaces),
+            counts: Counts::new(&arrangement.volumes(), &solid, &surfaces),
             rule: self.rule,
             input,
             dangling_faces: arrangement.dangling_faces().count(),

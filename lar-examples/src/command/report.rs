@@ -108,9 +108,14 @@ pub(crate) fn arrange(
     let start = Instant::now();
     let bar = Bar::new();
     let show = |progress| bar.show(progress);
-    let arranger = Arranger::new().planes(coplanarity.planes()).merge(coplanarity.merge());
-    let arrangement = arranger.threads(threads.count()).progress(&show).arrange(surfaces)?;
+    let arrangement = arranger(threads, coplanarity).progress(&show).arrange(surfaces)?;
     Ok((arrangement, start.elapsed()))
+}
+
+/// The options of a command.
+pub(crate) fn arranger(threads: Threads, coplanarity: Coplanarity) -> Arranger<'static> {
+    let arranger = Arranger::new().planes(coplanarity.planes()).merge(coplanarity.merge());
+    arranger.threads(threads.count())
 }
 
 /// What was moved so that nearly coplanar faces are coplanar.

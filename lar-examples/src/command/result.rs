@@ -3,7 +3,7 @@
 use super::input::is_json;
 use super::report::{Rounding, counted};
 use crate::CommandError;
-use lar_arrangement::{Arrangement, Evaluator, Solid, SolidComplex};
+use lar_arrangement::{Evaluator, Solid, SolidComplex};
 use lar_core::{FaceId, MeshFormat, TriangleMesh, write_mesh};
 use lar_triangle::Triangulation;
 use serde::Serialize;
@@ -16,7 +16,7 @@ pub(crate) struct Surfaces {
     polygons: SolidComplex,
     triangulation: Triangulation,
     triangles: TriangleMesh,
-    /// Choice of the cells, and their surface as a complex.
+    /// Until there were polygons: of all cells the choice, and their surface.
     pub boolean: Duration,
     pub triangulate: Duration,
 }
@@ -30,7 +30,11 @@ impl Surfaces {
     ) -> Result<Self, CommandError> {
         let polygons =
             evaluator.surface(solid).map_err(|source| CommandError::Boolean { file: None, source })?;
-        let boolean = before.elapsed();
+        Self::of(polygons, before.elapsed())
+    }
+
+    /// Polygons that took so long to find.
+    pub(crate) fn of(polygons: SolidComplex, boolean: Duration) -> Result<Self, CommandError> {
         let before = Instant::now();
         let triangulation = lar_triangle::triangulate(&polygons.complex)?;
         let faces = (0..).map(|f| (FaceId(f), 1)).take(polygons.n_faces());
@@ -38,15 +42,11 @@ impl Surfaces {
         Ok(Self { polygons, triangulation, triangles, boolean, triangulate: before.elapsed() })
     }
 
-    /// What rounding did to it. `volumes` are those of the arrangement's cells.
-    fn rounding(&self, arrangement: &Arrangement, volumes: &[f64], solid: &Solid<'_>) -> Rounding {
-        let normal = |face| {
-            let (piece, sign) = self.polygons.piece(face);
-            arrangement.normal(piece).map(|x| x * f64::from(sign))
-        };
+    /// What rounding did to it. `volumes` are those of its bounded cells.
+    pub(crate) fn rounding(&self, volumes: impl Iterator<Item = f64>) -> Rounding {
+        let normal = |face| self.polygons.normal(face);
         let defects = self.triangulation.defects(self.polygons.complex.points(), normal);
-        let bounded = solid.cells().iter().filter(|cell| cell.0 != 0);
-        Rounding::new(&self.triangulation, defects, bounded.map(|cell| volumes[cell.index()]))
+        Rounding::new(&self.triangulation, defects, volumes)
     }
 
     /// Polygons as a chain complex when the name ends in `.json`, else triangles in the format of the extension, OBJ
@@ -63,9 +63,9 @@ impl Surfaces {
     }
 }
 
-/// The numbers of a result. The counts are those of its polygons, but for `triangles`.
+/// The numbers of a surface. The counts are those of its polygons, but for `triangles`.
 #[derive(Debug, Serialize)]
-pub(crate) struct Counts {
+pub(crate) struct SurfaceCounts {
     vertices: usize,
     edges: usize,
     faces: usize,
@@ -80,19 +80,11 @@ pub(crate) struct Counts {
     bounded: bool,
     /// V − E + Σ over faces of (2 − loops).
     euler: i64,
-    /// The cells of the arrangement that make up the result.
-    cells: Vec<u32>,
-    rounding: Rounding,
 }
 
-impl Counts {
-    /// `volumes` are those of the arrangement's cells.
-    pub(crate) fn new(
-        arrangement: &Arrangement,
-        volumes: &[f64],
-        solid: &Solid<'_>,
-        surfaces: &Surfaces,
-    ) -> Self {
+impl SurfaceCounts {
+    /// With its volume, when it has one, and its area.
+    pub(crate) fn new(surfaces: &Surfaces, volume: Option<f64>, area: f64) -> Self {
         let polygons = &surfaces.polygons;
         Self {
             vertices: polygons.complex.n_cells(0),
@@ -101,17 +93,21 @@ impl Counts {
             triangles: surfaces.triangles.triangles.len(),
             components: polygons.n_components(),
             loops: polygons.n_loops(),
-            volume: solid.is_bounded().then(|| solid.volume()),
-            area: solid.area(),
+            volume,
+            area,
             closed: polygons.is_closed() && surfaces.triangles.is_closed(),
-            bounded: solid.is_bounded(),
+            bounded: volume.is_some(),
             euler: polygons.euler(),
-            cells: solid.cells().iter().map(|c| c.0).collect(),
-            rounding: surfaces.rounding(arrangement, volumes, solid),
         }
     }
 
-    /// Two lines, the first after `what` and a colon, and one about rounding when it did anything.
+    /// Those of a surface without cells.
+    pub(crate) fn alone(surfaces: &Surfaces, is_bounded: bool) -> Self {
+        let polygons = &surfaces.polygons;
+        Self::new(surfaces, is_bounded.then(|| polygons.volume()), polygons.area())
+    }
+
+    /// Two lines, the first after `what` and a colon.
     pub(crate) fn print(&self, what: &str, out: &mut dyn Write) -> Result<(), CommandError> {
         let counts = [
             counted(self.vertices, "vertex"),
@@ -124,6 +120,35 @@ impl Counts {
         let volume = self.volume.map_or("unbounded".to_owned(), |v| format!("volume {v}"));
         let closed = if self.closed { "closed" } else { "NOT CLOSED" };
         writeln!(out, "{volume}, area {}, {closed}, Euler characteristic {}", self.area, self.euler)?;
+        Ok(())
+    }
+}
+
+/// The numbers of a result made of cells.
+#[derive(Debug, Serialize)]
+pub(crate) struct Counts {
+    #[serde(flatten)]
+    surface: SurfaceCounts,
+    /// The cells of the arrangement that make up the result.
+    cells: Vec<u32>,
+    rounding: Rounding,
+}
+
+impl Counts {
+    /// `volumes` are those of the arrangement's cells.
+    pub(crate) fn new(volumes: &[f64], solid: &Solid<'_>, surfaces: &Surfaces) -> Self {
+        let bounded = solid.cells().iter().filter(|cell| cell.0 != 0);
+        let volume = solid.is_bounded().then(|| solid.volume());
+        Self {
+            surface: SurfaceCounts::new(surfaces, volume, solid.area()),
+            cells: solid.cells().iter().map(|c| c.0).collect(),
+            rounding: surfaces.rounding(bounded.map(|cell| volumes[cell.index()])),
+        }
+    }
+
+    /// Two lines, the first after `what` and a colon, and one about rounding when it did anything.
+    pub(crate) fn print(&self, what: &str, out: &mut dyn Write) -> Result<(), CommandError> {
+        self.surface.print(what, out)?;
         self.rounding.line().map_or(Ok(()), |line| Ok(writeln!(out, "{line}")?))
     }
 }
