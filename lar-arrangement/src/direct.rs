@@ -109,7 +109,7 @@ impl Arranger<'_> {
         let mut arrangement = if is_direct {
             self.result_alone(surfaces, soup, meeting, question, (stats, &course))?
         } else {
-            self.arranged(surfaces, soup, meeting, (stats, &course))?
+            self.arranged(surfaces, soup, &meeting, (stats, &course))?
         };
         let mut stats = std::mem::take(&mut arrangement.stats);
         let solid = if is_direct {
@@ -117,7 +117,9 @@ impl Arranger<'_> {
         } else {
             arrangement.solid_where(expression, rule, &course, &mut stats)?
         };
-        let surface = simplify::surface(&solid, detail, &course, &mut stats)?;
+        let mut surface = simplify::surface(&solid, detail, &course, &mut stats)?;
+        // The arrangement is not the caller's.
+        surface.pieces = Vec::new();
         course.finish(&mut stats);
         Ok((surface, stats))
     }

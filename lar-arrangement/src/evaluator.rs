@@ -86,6 +86,7 @@ impl<'a> Evaluator<'a> {
         let (course, mut times) = (Course::new(self.control, CELLS), Stats::default());
         let solid = arrangement.solid_where(expression, self.fill, &course, &mut times)?;
         course.finish(&mut times);
+        course.go_on()?;
         Ok(solid)
     }
 

@@ -71,7 +71,7 @@ impl Plate {
             let middle = (b.lo[k] + b.hi[k]) / 2.0;
             let below = self.around.lo[k] <= middle + MARGIN && self.around.hi[k] >= b.lo[k] - MARGIN;
             let above = self.around.hi[k] >= middle - MARGIN && self.around.lo[k] <= b.hi[k] + MARGIN;
-            octants &= u8::from(below) * SIDES[k][0] | u8::from(above) * SIDES[k][1];
+            octants &= (u8::from(below) * SIDES[k][0]) | (u8::from(above) * SIDES[k][1]);
             at += self.normal[k] * (middle - self.origin[k]);
             step[k] = self.normal[k] * (b.hi[k] - b.lo[k]) / 4.0;
             reach += step[k].abs();
@@ -131,7 +131,7 @@ impl Live {
         let (nodes, boxes, found) = (vec![Node::Dead], Vec::new(), Vec::new());
         let mut division = Division { soup, plates: &plates, solids, circuit, nodes, boxes, found, course };
         let facets = (0..plates.len() as u32).collect();
-        division.divide(0, Part { around: all, facets, unknown, divisions: 0, in_vain: 0 })?;
+        division.divide(0, &Part { around: all, facets, unknown, divisions: 0, in_vain: 0 })?;
         let Division { nodes, boxes, found, .. } = division;
         let (set_of, n_sets) = overlapping(soup, pairs, course)?.labels();
         let nowhere = || Set { around: Aabb::EMPTY, boxes: Vec::new(), stretches: 0 };
@@ -271,9 +271,9 @@ struct Division<'a> {
 }
 
 impl Division<'_> {
-    fn divide(&mut self, node: usize, part: Part) -> Result<(), Cancelled> {
+    fn divide(&mut self, node: usize, part: &Part) -> Result<(), Cancelled> {
         self.course.go_on()?;
-        let (learnt, unknown) = self.learn(&part);
+        let (learnt, unknown) = self.learn(part);
         if self.circuit.value() == Value::Unknown {
             if part.is_small() {
                 let leaf = self.boxes.len() as u32;
@@ -284,7 +284,7 @@ impl Division<'_> {
                 let first = self.nodes.len();
                 self.nodes[node] = Node::Divided(first as u32);
                 self.nodes.resize(first + 8, Node::Dead);
-                for (octant, part) in part.octants(self.plates, &unknown).into_iter().enumerate() {
+                for (octant, part) in part.octants(self.plates, &unknown).iter().enumerate() {
                     self.divide(first + octant, part)?;
                 }
             }

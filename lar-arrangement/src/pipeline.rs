@@ -207,7 +207,7 @@ impl<'a> Arranger<'a> {
         let mut stats = Stats::default();
         let course = Course::new(self.control, PLAN);
         let (soup, meeting) = self.soup_and_pairs(surfaces, &mut stats, &course)?;
-        let mut out = self.arranged(surfaces, soup, meeting, (stats, &course))?;
+        let mut out = self.arranged(surfaces, soup, &meeting, (stats, &course))?;
         course.finish(&mut out.stats);
         self.check(|| check::arrangement(&out))?;
         Ok(out)
@@ -218,7 +218,7 @@ impl<'a> Arranger<'a> {
         &self,
         surfaces: &[Surface],
         mut soup: Soup,
-        meeting: Meeting,
+        meeting: &Meeting,
         (mut stats, course): (Stats, &Course),
     ) -> Result<Arrangement, ArrangementError> {
         let (mut skeleton, rings) =

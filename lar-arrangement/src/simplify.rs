@@ -94,6 +94,7 @@ fn finished(merged: Merged, origins: Origins, points: &Points, vertices: &[u32])
         parents: origins.parents,
         parent_offsets: origins.parent_offsets,
         normals: origins.normals,
+        pieces: origins.pieces,
     }
 }
 
@@ -101,7 +102,9 @@ fn finished(merged: Merged, origins: Origins, points: &Points, vertices: &[u32])
 struct Origins {
     parents: Vec<Parent>,
     parent_offsets: Vec<u32>,
-    /// Those of the first piece of each.
+    /// The first face of the arrangement that is part of each.
+    pieces: Vec<(FaceId, i8)>,
+    /// The normals of these.
     normals: Vec<[f64; 3]>,
 }
 
@@ -111,10 +114,12 @@ impl Origins {
         // New faces are numbered as their first pieces come.
         let a = surface.solid.arrangement;
         let mut normals = Vec::with_capacity(n_new_faces);
+        let mut pieces = Vec::with_capacity(n_new_faces);
         for (&(face, sign), &new) in surface.faces.iter().zip(new_face) {
             if normals.len() == new as usize {
                 let normal = a.geometry.normal(a.facet_of_face[face.index()]);
                 normals.push(normal.map(|x| x * f64::from(sign)));
+                pieces.push((face, sign));
             }
             let signed = |p: &Parent| (new, Parent { sign: p.sign * sign, ..*p });
             parents.extend(a.parents(face).iter().map(signed));
@@ -124,6 +129,7 @@ impl Origins {
         Self {
             parent_offsets: offsets(n_new_faces, parents.iter().map(|p| p.0)),
             parents: parents.into_iter().map(|p| p.1).collect(),
+            pieces,
             normals,
         }
     }

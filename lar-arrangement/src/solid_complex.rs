@@ -17,6 +17,8 @@ pub struct SolidComplex {
     pub(crate) parent_offsets: Vec<u32>,
     /// The exact normals, rounded, up to positive factors.
     pub(crate) normals: Vec<[f64; 3]>,
+    /// The first face of the arrangement that is part of each; empty when there is no arrangement.
+    pub(crate) pieces: Vec<(FaceId, i8)>,
 }
 
 impl SolidComplex {
@@ -42,6 +44,13 @@ impl SolidComplex {
     pub fn parents(&self, face: FaceId) -> &[Parent] {
         let f = face.index();
         &self.parents[self.parent_offsets[f] as usize..self.parent_offsets[f + 1] as usize]
+    }
+
+    /// The first of the arrangement's faces that a face is made of, and +1 where they look the same way, −1 where not.
+    /// `None` when there is no arrangement ([`Arranger::boolean`](crate::Arranger::boolean)).
+    #[must_use]
+    pub fn piece(&self, face: FaceId) -> Option<(FaceId, i8)> {
+        self.pieces.get(face.index()).copied()
     }
 
     /// The unit normal of a face's exact plane, rounded; it points out of the solid.

@@ -8,9 +8,7 @@ use common::{
     Random, all_counts, arranged, assert_close, cuboid, each_of, each_seed, exact_motions, mapped,
     random_cubes, relabelled, sorted_volumes, surface,
 };
-use lar_arrangement::{
-    Arrangement, Arranger, Checks, Detail, Expression, FillRule, Merge, SolidComplex, operand_names,
-};
+use lar_arrangement::{Arrangement, Arranger, Checks, Detail, Expression, FillRule, Merge, operand_names};
 use lar_core::{CellId, FaceId, Points, Struct, Surface, cuboid_grid, r, rotation, s, t, triangular_prism};
 use std::f64::consts::FRAC_PI_2;
 use std::num::NonZeroUsize;
