@@ -95,13 +95,23 @@ pub(crate) fn sorted_numbers(
     sorted
 }
 
-/// Sorts numbers that have all but so many bits in common: first by as many places as hold a few each.
+/// Sorts numbers that have all but so many bits in common: first by as many places as hold a few each, then again what
+/// is crowded in one place. Each time some bits fewer are left.
 fn sort_below(numbers: &[u64], bits: u32, sorted: &mut [u64]) {
-    let upper = (numbers.len() / 4).max(2).ilog2().min(16);
+    const CROWD: usize = 64;
+    let upper = (numbers.len() / 4).max(2).ilog2().min(16).min(bits);
     let mask = (1 << upper) - 1;
     let place = |x: &u64| (x >> (bits - upper)) as usize & mask;
     let offsets = sort_by_place(1 << upper, numbers, place, sorted);
-    parallel::sort_stretches(sorted, &offsets, Ord::cmp);
+    parallel::each_stretch(sorted, &offsets, |stretch| match stretch.len() {
+        0..2 => {}
+        2..CROWD => stretch.sort_unstable(),
+        _ if stretch.is_sorted() => {}
+        _ => {
+            let crowd = stretch.to_vec();
+            sort_below(&crowd, bits - upper, stretch);
+        }
+    });
 }
 
 #[cfg(test)]

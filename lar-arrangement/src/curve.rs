@@ -16,9 +16,13 @@ pub(crate) fn hull<const D: usize>(n: usize, box_of: impl Fn(u32) -> Aabb<D> + S
     hulls.iter().fold(Aabb::EMPTY, |all, hull| all.joined(hull))
 }
 
-/// The order of n boxes along a Z-shaped space-filling curve through their middles.
-pub(crate) fn z_order<const D: usize>(n: usize, box_of: impl Fn(u32) -> Aabb<D> + Sync + Send) -> Vec<u32> {
-    let curve = Curve::through(&hull(n, &box_of));
+/// The order of n boxes in another one along a Z-shaped space-filling curve through their middles.
+pub(crate) fn z_order<const D: usize>(
+    all: &Aabb<D>,
+    n: usize,
+    box_of: impl Fn(u32) -> Aabb<D> + Sync + Send,
+) -> Vec<u32> {
+    let curve = Curve::through(all);
     let upper = parallel::map_light(n, |i| curve.upper(&box_of(i as u32), i as u32));
     curve.sorted(&upper, box_of)
 }

@@ -65,7 +65,7 @@ fn tag(hash: u64) -> u64 {
 }
 
 /// Coordinates are often multiples of a high power of two: each factor's high bits come down before the next.
-fn hash(point: [i64; 3]) -> u64 {
+pub(crate) fn hash<const N: usize>(point: [i64; N]) -> u64 {
     let mixed = point
         .iter()
         .fold(0u64, |hash, &x| (hash.rotate_left(32) ^ x as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15));

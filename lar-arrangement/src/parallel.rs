@@ -204,20 +204,6 @@ fn halve<T: Send>(items: &mut [T], offsets: &[u32], f: &(impl Fn(&mut [T], &[u32
     join(|| halve(left, &offsets[..=middle], f), || halve(right, &offsets[middle..], f));
 }
 
-/// Sorts distinct items by stretches, of which each holds nothing that belongs to one after it.
-pub(crate) fn sort_stretches<T: Send>(
-    items: &mut [T],
-    offsets: &[u32],
-    cmp: impl Fn(&T, &T) -> Ordering + Sync + Send,
-) {
-    const MANY: usize = 4096;
-    each_stretch(items, offsets, |stretch| match stretch.len() {
-        0..2 => {}
-        2..MANY => stretch.sort_unstable_by(&cmp),
-        _ => sort_distinct_by(stretch, &cmp),
-    });
-}
-
 /// Cuts a slice into parts of some lengths, which add up to no more than its own.
 pub(crate) fn cut<T>(items: &mut [T], lengths: impl Iterator<Item = usize>) -> Vec<&mut [T]> {
     let mut rest = items;

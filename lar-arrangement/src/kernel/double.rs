@@ -48,9 +48,15 @@ impl Double {
         (acc, skip)
     }
 
-    /// Exact below 2^106, beyond with a relative error below 2^-104.
+    /// Exact below 2^106, where two halves are, beyond with a relative error below 2^-104.
     fn from_i128(x: i128) -> Self {
+        const HALF: u32 = 53;
         let m = x.unsigned_abs();
+        if m >> (2 * HALF) == 0 {
+            let (high, low) = ((x >> HALF) as i64, x as i64 & ((1 << HALF) - 1));
+            let (hi, lo) = quick_two_sum(high as f64 * (1i64 << HALF) as f64, low as f64);
+            return Self { hi, lo };
+        }
         let part = |shift: u32| f64::from((m >> shift) as u32) * 2f64.powi(shift as i32);
         let acc = Self { hi: part(96), lo: 0.0 }.plus(part(64)).plus(part(32)).plus(part(0));
         if x < 0 { acc.negated() } else { acc }

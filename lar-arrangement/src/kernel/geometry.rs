@@ -411,8 +411,8 @@ impl Geometry {
     }
 }
 
-/// The number, below 2^103, correctly rounded: both parts are exact, and only their sum is rounded.
-fn to_f64(x: i128) -> f64 {
+/// The number, below 2^93, correctly rounded: both parts are exact, and only their sum is rounded.
+pub(crate) fn to_f64(x: i128) -> f64 {
     const LOW: u32 = 40;
     let (high, low) = ((x >> LOW) as i64, x as i64 & ((1 << LOW) - 1));
     high as f64 * (1i64 << LOW) as f64 + low as f64

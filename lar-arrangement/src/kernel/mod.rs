@@ -38,7 +38,7 @@ mod tests;
 
 pub(crate) use double::Fraction;
 pub(crate) use geometry::{
-    CanonicalPoints, Geometry, RationalPoint, SharedPlane, Support, Vertex, VertexDef,
+    CanonicalPoints, Geometry, RationalPoint, SharedPlane, Support, Vertex, VertexDef, to_f64,
 };
 pub(crate) use int::Int;
 pub(crate) use point::{Plane, dominant_axis, rounded_quotient};

@@ -1,6 +1,6 @@
 //! Points along a carrier: their approximate and their exact places.
 
-use crate::kernel::Int;
+use crate::kernel::{Int, to_f64};
 use crate::planar::carriers::{Carriers, cross};
 use std::cmp::Ordering;
 
@@ -15,7 +15,7 @@ pub(crate) fn long_axis(direction: [i64; 2]) -> usize {
 /// Approximate coordinate of the point where a carrier's sides to another one's line change from a to b.
 pub(crate) fn key(start: [i64; 2], direction: [i64; 2], a: i128, b: i128) -> f64 {
     let axis = long_axis(direction);
-    let t = a as f64 / (a - b) as f64;
+    let t = to_f64(a) / to_f64(a - b);
     start[axis] as f64 + direction[axis] as f64 * t
 }
 

@@ -4,7 +4,7 @@
 use crate::boolean::{BooleanError, FillRule};
 use crate::expression::Expression;
 use crate::merge::{self, Faces, Removal};
-use crate::planar::input::{Drawing, NO_REGION};
+use crate::planar::input::Drawing;
 use crate::planar::result::PlanarArrangement;
 use crate::union_find::UnionFind;
 use crate::winding::{Closure, Walls, Windings};
@@ -62,8 +62,8 @@ impl PlanarArrangement {
     /// The edges with the regions that they bound.
     fn walls(&self, drawing: &Drawing) -> Walls {
         let mut bounds: Vec<Vec<(u32, i32)>> = vec![Vec::new(); self.n_edges()];
-        for (segment, &region) in drawing.region_of.iter().enumerate().filter(|(_, r)| **r != NO_REGION) {
-            for (edge, sign) in self.edges_of(segment) {
+        for &(segment, region) in &drawing.outlines {
+            for (edge, sign) in self.edges_of(segment as usize) {
                 bounds[edge.index()].push((region, i32::from(sign)));
             }
         }

@@ -14,7 +14,7 @@ use rustc_hash::FxHashMap;
 pub(crate) const BUNDLE: usize = 8;
 
 /// From this number on a bundle is worth a new layout of the tree.
-const LARGE: usize = 64;
+const LARGE: u8 = 64;
 
 /// One block in so many is searched first, to find out what bundles there are.
 const SAMPLE: usize = 64;
@@ -40,14 +40,15 @@ impl Bundles {
     /// The carriers that end in one point, where they are many.
     pub(crate) fn of_fans(carriers: &Carriers) -> Self {
         let mut out = Self { of: vec![NO_GROUP; carriers.ends.len()], n: 0, at: FxHashMap::default() };
-        let mut n_ends = vec![0; carriers.points.len()];
+        let count = |n: &mut u8| *n = n.saturating_add(1);
+        let mut n_ends = vec![0u8; carriers.points.len()];
         // Members have no fewer ends than carriers, and theirs lie side by side in memory.
-        carriers.members.iter().flat_map(|member| member.ends).for_each(|p| n_ends[p as usize] += 1);
+        carriers.members.iter().flat_map(|member| member.ends).for_each(|p| count(&mut n_ends[p as usize]));
         if n_ends.iter().all(|&n| n < LARGE) {
             return out;
         }
         n_ends.fill(0);
-        carriers.ends.as_flattened().iter().for_each(|&p| n_ends[p as usize] += 1);
+        carriers.ends.as_flattened().iter().for_each(|&p| count(&mut n_ends[p as usize]));
         for (ends, carrier) in carriers.ends.iter().zip(0..) {
             if let Some(&at) = ends.iter().find(|&&p| n_ends[p as usize] >= LARGE) {
                 out.learn(&Bundle { at: Some(at), carriers: vec![carrier] });
@@ -78,7 +79,7 @@ impl Bundles {
                 new += 1;
             }
         }
-        new >= LARGE
+        new >= usize::from(LARGE)
     }
 
     /// A tree of some carriers with those of a bundle side by side, by slope.
@@ -98,12 +99,17 @@ impl Bundles {
 
 /// The same items with every 64th block before all others. A block holds what is near in the plane.
 pub(crate) fn sample_first(items: &[u32]) -> Vec<u32> {
-    let whole = items.len() / WIDTH * WIDTH;
-    let blocks = || items[..whole].chunks(WIDTH).enumerate();
-    let is_sample = |i: usize| i % SAMPLE == SAMPLE / 2;
-    let sample = blocks().filter(|(i, _)| is_sample(*i));
-    let rest = blocks().filter(|(i, _)| !is_sample(*i));
-    sample.chain(rest).flat_map(|(_, block)| block).chain(&items[whole..]).copied().collect()
+    let (blocks, rest) = items.as_chunks::<WIDTH>();
+    let sample = || (SAMPLE / 2..blocks.len()).step_by(SAMPLE);
+    let mut out = Vec::with_capacity(items.len());
+    sample().for_each(|i| out.extend_from_slice(&blocks[i]));
+    let mut begin = 0;
+    for end in sample().chain([blocks.len()]) {
+        out.extend_from_slice(blocks[begin..end].as_flattened());
+        begin = end + 1;
+    }
+    out.extend_from_slice(rest);
+    out
 }
 
 /// Number of blocks that `sample_first` puts first.

@@ -3,7 +3,7 @@
 //! Two definitions of one point always lie next to each other on some carrier, or are joined by a chain of such
 //! neighbours: all carriers through the point cross each other there. So no search by position is needed.
 
-use crate::counting::{offsets, sorted_by_place};
+use crate::counting::sorted_by_place;
 use crate::parallel;
 use crate::planar::along::{Along, KEY_ERROR, long_axis};
 use crate::planar::carriers::Carriers;
@@ -56,8 +56,13 @@ impl Chains {
             part
         })?;
         drop(lots);
-        let lengths = parts.iter().flat_map(Part::lengths);
-        let mut out = Self { offsets: offsets(lengths.collect::<Vec<_>>().into_iter()), ..Self::default() };
+        let mut offsets = Vec::with_capacity(carriers.ends.len() + 1);
+        offsets.push(0);
+        for part in &parts {
+            let base = offsets[part.first_carrier as usize];
+            offsets.extend(part.ends.iter().map(|end| base + end));
+        }
+        let mut out = Self { offsets, ..Self::default() };
         Numbering::new(carriers, &crossings, parts).finish(&mut out);
         out.find_stretches(carriers);
         Ok(out)
@@ -120,10 +125,6 @@ impl Part {
         let begins = std::iter::once(&0).chain(&self.ends);
         let chains = begins.zip(&self.ends).map(|(&from, &to)| &self.chain[from as usize..to as usize]);
         (self.first_carrier..).zip(chains)
-    }
-
-    fn lengths(&self) -> impl Iterator<Item = u32> + '_ {
-        self.chains().map(|(_, chain)| chain.len() as u32)
     }
 
     fn push(&mut self, carriers: &Carriers, crossings: &[[u32; 2]], carrier: u32, events: &mut [Event]) {

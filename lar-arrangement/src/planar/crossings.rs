@@ -32,51 +32,102 @@ pub(crate) fn crossings(
     course: &Course,
     team: &Team,
 ) -> Result<Crossings, ArrangementError> {
-    let mut out = Crossings::with_stops(carriers);
-    let mut lists = Vec::new();
-    let mut base = carriers.points.len();
-    let mut bundles = Bundles::of_fans(carriers);
-    let regroup =
-        |bundles: &Bundles, items: &[u32]| team.work(items.len(), || bundles.tree(carriers, items.to_vec()));
-    let mut regrouped = if bundles.is_empty() { None } else { Some(regroup(&bundles, tree.items())?) };
     let sample = n_sampled(tree.items().len());
-    let (mut done, mut sampled, mut round, mut in_round) = (0, 0, 1, 0);
     let quiet = course.quiet();
+    let mut search = Search::new(carriers, team)?;
+    let mut regrouped = if search.bundles.is_empty() { None } else { Some(search.regrouped(tree.items())?) };
+    let (mut begin, mut sampled, mut length) = (0, 0, 1);
     loop {
         let tree = regrouped.as_ref().unwrap_or(tree);
         let n_blocks = tree.n_blocks();
-        let to = if sampled < sample { (done + round).min(n_blocks) } else { n_blocks };
-        let mut is_news = false;
+        let end = if sampled < sample { (begin + length).min(n_blocks) } else { n_blocks };
         // Nearly all of the work is in the last round.
-        let course = if to == n_blocks { course } else { &quiet };
-        // As many pairs a block as in the round before.
-        let expected = in_round / (round / 2).max(1) * (to - done);
-        let (pairs_before, crossings_before) = (out.pairs_tested, base);
-        for part in team.work(expected, || search(carriers, tree, &bundles, done..to, course))?? {
-            for bundle in &part.bundles {
-                is_news |= bundles.learn(bundle);
-            }
-            out.lots.push(part.lot.numbered_from(base as u32));
-            out.pairs_tested += part.pairs;
-            base += part.crossings.len();
-            lists.push(part.crossings);
+        let course = if end == n_blocks { course } else { &quiet };
+        let is_news = search.round(tree, begin..end, course)?;
+        if end == n_blocks {
+            return search.finish();
         }
-        // Once a bundle is known, only those of its pairs that were kept are to be expected again.
-        in_round = if is_news { base - crossings_before } else { (out.pairs_tested - pairs_before) as usize };
-        if to == n_blocks {
-            out.crossings = team.work(base, || parallel::concat(&lists))?;
-            return Ok(out);
-        }
-        (done, sampled, round) = (to, sampled + to - done, 2 * round);
+        (begin, sampled, length) = (end, sampled + end - begin, 2 * length);
         if is_news {
-            regrouped = Some(regroup(&bundles, tree.items_from(done))?);
-            done = 0;
+            regrouped = Some(search.regrouped(tree.items_from(begin))?);
+            begin = 0;
         }
     }
 }
 
+/// What is known after some rounds.
+struct Search<'a> {
+    carriers: &'a Carriers,
+    team: &'a Team,
+    bundles: Bundles,
+    /// Without the crossings, which are still in parts.
+    out: Crossings,
+    crossings: Vec<Vec<[u32; 2]>>,
+    /// Number of grid points and crossings.
+    n_vertices: usize,
+    /// So many pairs of carriers are to be expected in a block.
+    pairs_a_block: usize,
+}
+
+impl<'a> Search<'a> {
+    fn new(carriers: &'a Carriers, team: &'a Team) -> Result<Self, ArrangementError> {
+        Ok(Self {
+            carriers,
+            team,
+            bundles: team.work(carriers.ends.len(), || Bundles::of_fans(carriers))?,
+            out: Crossings::with_stops(carriers),
+            crossings: Vec::new(),
+            n_vertices: carriers.points.len(),
+            pairs_a_block: 0,
+        })
+    }
+
+    /// A tree of some carriers that is laid out for the bundles.
+    fn regrouped(&self, items: &[u32]) -> Result<BoxTree<2>, ArrangementError> {
+        let Self { carriers, bundles, .. } = self;
+        self.team.work(items.len(), || bundles.tree(carriers, items.to_vec()))
+    }
+
+    /// Searches some blocks; true when they have told of a large bundle.
+    fn round(
+        &mut self,
+        tree: &BoxTree<2>,
+        blocks: Range<usize>,
+        course: &Course,
+    ) -> Result<bool, ArrangementError> {
+        let (n_blocks, expected) = (blocks.len(), self.pairs_a_block * blocks.len());
+        let parts = self
+            .team
+            .work(expected, || search_blocks(self.carriers, tree, &self.bundles, blocks, course))??;
+        let (pairs_before, vertices_before) = (self.out.pairs_tested, self.n_vertices);
+        let mut is_news = false;
+        for part in parts {
+            for bundle in &part.bundles {
+                is_news |= self.bundles.learn(bundle);
+            }
+            self.out.lots.push(part.lot.numbered_from(self.n_vertices as u32));
+            self.out.pairs_tested += part.pairs;
+            self.n_vertices += part.crossings.len();
+            self.crossings.push(part.crossings);
+        }
+        // Once a bundle is known, only those of its pairs that were kept are to be expected again.
+        let pairs = if is_news {
+            self.n_vertices - vertices_before
+        } else {
+            (self.out.pairs_tested - pairs_before) as usize
+        };
+        self.pairs_a_block = pairs / n_blocks.max(1);
+        Ok(is_news)
+    }
+
+    fn finish(mut self) -> Result<Crossings, ArrangementError> {
+        self.out.crossings = self.team.work(self.n_vertices, || parallel::concat(&self.crossings))?;
+        Ok(self.out)
+    }
+}
+
 /// What is found in some blocks, a chunk of them at a time.
-fn search(
+fn search_blocks(
     carriers: &Carriers,
     tree: &BoxTree<2>,
     bundles: &Bundles,

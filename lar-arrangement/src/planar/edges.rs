@@ -13,13 +13,42 @@ use std::ops::Range;
 
 pub(crate) const NO_EDGE: u32 = u32::MAX;
 
-/// Successive edges along a carrier.
+/// Successive edges along a carrier, up to the first of the next run.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Run {
     pub carrier: u32,
     pub first_edge: u32,
-    /// The edge after the last.
-    pub end_edge: u32,
+}
+
+/// Number of the edge that begins at each place of the chains.
+#[derive(Debug)]
+pub(crate) enum EdgeAt {
+    /// All edges of the chains are kept.
+    All,
+    /// `NO_EDGE` where there is none.
+    Some(Vec<u32>),
+}
+
+impl EdgeAt {
+    /// The edge that begins at a place of a carrier's chain, which is not its last.
+    pub(crate) fn edge(&self, carrier: u32, place: u32) -> Option<u32> {
+        match self {
+            Self::All => Some(place - carrier),
+            Self::Some(edges) => Some(edges[place as usize]).filter(|&edge| edge != NO_EDGE),
+        }
+    }
+
+    /// The same after edges have new numbers, or none.
+    pub(crate) fn renumbered(&self, chains: &Chains, new: &[u32]) -> Self {
+        let mut edges = vec![NO_EDGE; chains.chain.len()];
+        for carrier in 0..chains.offsets.len() as u32 - 1 {
+            for place in chains.offsets[carrier as usize]..chains.offsets[carrier as usize + 1] - 1 {
+                let edge = self.edge(carrier, place);
+                edges[place as usize] = edge.map_or(NO_EDGE, |edge| new[edge as usize]);
+            }
+        }
+        Self::Some(edges)
+    }
 }
 
 /// The edges that are kept, along their carriers. Half-edge 2e leads along the carrier, 2e + 1 back.
@@ -29,8 +58,7 @@ pub(crate) struct Edges {
     pub runs: Vec<Run>,
     /// Run of each edge.
     pub run_of: Vec<u32>,
-    /// Number of the edge that begins at each place of the chains, or `NO_EDGE`.
-    pub edge_at: Vec<u32>,
+    pub edge_at: EdgeAt,
 }
 
 impl Edges {
@@ -43,25 +71,24 @@ impl Edges {
         let first_edge = offsets(counts.iter().map(|n| n[0]));
         let first_run = offsets(counts.iter().map(|n| n[1]));
         let (n, n_runs) = (first_edge[n_parts] as usize, first_run[n_parts] as usize);
-        let mut out = Self {
-            ends: vec![[0; 2]; n],
-            runs: vec![Run::default(); n_runs],
-            run_of: vec![0; n],
-            edge_at: vec![0; chains.chain.len()],
-        };
+        let (mut ends, mut run_of) = (vec![[0; 2]; n], vec![0; n]);
+        let mut runs = vec![Run::default(); n_runs];
+        let mut edge_at = vec![NO_EDGE; if n == chains.n_edges() { 0 } else { chains.chain.len() }];
         let n_edges = || counts.iter().map(|n| n[0] as usize);
-        let n_places =
-            |part| (chains.offsets[carriers(part).end] - chains.offsets[carriers(part).start]) as usize;
-        let parts = parallel::cut(&mut out.ends, n_edges()).into_iter();
-        let parts = parts.zip(parallel::cut(&mut out.runs, counts.iter().map(|n| n[1] as usize)));
-        let parts = parts.zip(parallel::cut(&mut out.run_of, n_edges()));
-        let parts = parts.zip(parallel::cut(&mut out.edge_at, (0..n_parts).map(n_places)));
+        let place = |carrier: usize| (chains.offsets[carrier] as usize).min(edge_at.len());
+        let n_places: Vec<usize> =
+            (0..n_parts).map(|part| place(carriers(part).end) - place(carriers(part).start)).collect();
+        let parts = parallel::cut(&mut ends, n_edges()).into_iter();
+        let parts = parts.zip(parallel::cut(&mut runs, counts.iter().map(|n| n[1] as usize)));
+        let parts = parts.zip(parallel::cut(&mut run_of, n_edges()));
+        let parts = parts.zip(parallel::cut(&mut edge_at, n_places.into_iter()));
         parallel::each(parts.enumerate().collect(), |(i, (((ends, runs), run_of), edge_at))| {
             let (first_edge, first_run) = (first_edge[i], first_run[i]);
             let mut part = Part { ends, runs, run_of, first_edge, first_run, n_edges: 0, n_runs: 0 };
             part.fill(chains, carriers(i), &keep, edge_at);
         });
-        out
+        let edge_at = if n == chains.n_edges() { EdgeAt::All } else { EdgeAt::Some(edge_at) };
+        Self { ends, runs, run_of, edge_at }
     }
 
     /// The same without edges that have one cycle on both sides; `None` when there are none. They are those with
@@ -84,10 +111,24 @@ impl Edges {
             let (run, [a, b]) = (self.run_of[e], self.ends[e]);
             [star.clockwise(self, b, run, false), star.clockwise(self, a, run, true)]
         };
-        let (next, components) =
-            parallel::join(|| parallel::map(self.ends.len(), next), || star.components(self.runs.len()));
-        drop(star);
-        (Cycles::new(next.into_flattened()), components)
+        let next = parallel::map(self.ends.len(), next).into_flattened();
+        let n_runs = self.runs.len();
+        // Each on one thread; on a single one the star's memory is free before the cycles are made.
+        let (components, cycles) = parallel::join(move || star.components(n_runs), || Cycles::new(next));
+        (cycles, components)
+    }
+
+    /// Calls `visit` with the vertices that runs pass.
+    fn each_pass(&self, mut visit: impl FnMut(u32, Pass)) {
+        let mut before = None;
+        for (edge, (&[a, b], &run)) in (0..).zip(self.ends.iter().zip(&self.run_of)) {
+            let backwards = if before == Some(run) { BACKWARDS } else { 0 };
+            visit(a, Pass { run, edge: edge | FORWARDS | backwards });
+            if self.run_of.get(edge as usize + 1) != Some(&run) {
+                visit(b, Pass { run, edge: (edge + 1) | BACKWARDS });
+            }
+            before = Some(run);
+        }
     }
 }
 
@@ -130,15 +171,18 @@ impl Part<'_> {
         for carrier in carriers.map(|carrier| carrier as u32) {
             let begin = (chains.offsets[carrier as usize] - first_place) as usize;
             let mut continues = false;
-            for ((w, edge), at) in
-                chains.along(carrier).windows(2).zip(chains.edges_along(carrier)).zip(&mut edge_at[begin..])
+            for (place, (w, edge)) in
+                (begin..).zip(chains.along(carrier).windows(2).zip(chains.edges_along(carrier)))
             {
                 let keeps = keep(edge);
-                *at = if keeps { self.push(carrier, [w[0], w[1]], continues) } else { NO_EDGE };
+                if keeps {
+                    let number = self.push(carrier, [w[0], w[1]], continues);
+                    if let Some(at) = edge_at.get_mut(place) {
+                        *at = number;
+                    }
+                }
                 continues = keeps;
             }
-            // After the last vertex there is no edge.
-            edge_at[begin + chains.along(carrier).len() - 1] = NO_EDGE;
         }
     }
 
@@ -146,12 +190,11 @@ impl Part<'_> {
     fn push(&mut self, carrier: u32, ends: [u32; 2], continues: bool) -> u32 {
         let edge = self.first_edge + self.n_edges as u32;
         if !continues {
-            self.runs[self.n_runs] = Run { carrier, first_edge: edge, end_edge: edge };
+            self.runs[self.n_runs] = Run { carrier, first_edge: edge };
             self.n_runs += 1;
         }
         self.ends[self.n_edges] = ends;
         self.run_of[self.n_edges] = self.first_run + self.n_runs as u32 - 1;
-        self.runs[self.n_runs - 1].end_edge = edge + 1;
         self.n_edges += 1;
         edge
     }
@@ -170,12 +213,6 @@ const FORWARDS: u32 = 1 << 31;
 const BACKWARDS: u32 = 1 << 30;
 
 impl Pass {
-    fn new(number: u32, run: &Run, edge: u32) -> Self {
-        let forwards = if edge < run.end_edge { FORWARDS } else { 0 };
-        let backwards = if run.first_edge < edge { BACKWARDS } else { 0 };
-        Self { run: number, edge: edge | forwards | backwards }
-    }
-
     /// The half-edge that leaves the vertex forwards or backwards along the run.
     fn leaves(&self, forwards: bool) -> Option<u32> {
         let edge = self.edge & (BACKWARDS - 1);
@@ -200,9 +237,7 @@ const FEW: usize = 8;
 impl<'a> Star<'a> {
     fn new(edges: &Edges, carriers: &'a Carriers, n_vertices: usize) -> Self {
         let mut offsets = vec![0u32; n_vertices + 1];
-        for run in &edges.runs {
-            edges.vertices(run, |v, _| offsets[v as usize] += 1);
-        }
+        edges.each_pass(|v, _| offsets[v as usize] += 1);
         let mut end = 0;
         for offset in &mut offsets {
             end += *offset;
@@ -210,12 +245,10 @@ impl<'a> Star<'a> {
         }
         // Filled from the back, every offset ends where its passes begin.
         let mut passes = vec![Pass::default(); end as usize];
-        for (run, number) in edges.runs.iter().zip(0..) {
-            edges.vertices(run, |v, edge| {
-                offsets[v as usize] -= 1;
-                passes[offsets[v as usize] as usize] = Pass::new(number, run, edge);
-            });
-        }
+        edges.each_pass(|v, pass| {
+            offsets[v as usize] -= 1;
+            passes[offsets[v as usize] as usize] = pass;
+        });
         let mut out = Self { carriers, offsets, passes: Vec::new() };
         let rank = |p: &Pass| out.rank(edges, p.run);
         parallel::each_stretch(&mut passes, &out.offsets, |at| match at {
@@ -257,7 +290,7 @@ impl<'a> Star<'a> {
     }
 
     /// Component of each run.
-    fn components(&self, n_runs: usize) -> Vec<u32> {
+    fn components(self, n_runs: usize) -> Vec<u32> {
         let mut sets = UnionFind::new(n_runs);
         for range in self.offsets.windows(2) {
             for w in self.passes[range[0] as usize..range[1] as usize].windows(2) {
@@ -265,15 +298,5 @@ impl<'a> Star<'a> {
             }
         }
         sets.labels().0
-    }
-}
-
-impl Edges {
-    /// Calls `visit` with the vertices of a run, each with the edge that leaves it forwards.
-    fn vertices(&self, run: &Run, mut visit: impl FnMut(u32, u32)) {
-        visit(self.start(run), run.first_edge);
-        for edge in run.first_edge..run.end_edge {
-            visit(self.ends[edge as usize][1], edge + 1);
-        }
     }
 }

@@ -7,7 +7,7 @@ use crate::parallel;
 use crate::planar::along::parameter;
 use crate::planar::carriers::{Carriers, cross};
 use crate::planar::chains::{Chains, VertexSource};
-use crate::planar::edges::{Edges, NO_EDGE, Run};
+use crate::planar::edges::{Edges, Run};
 use crate::progress::{Cancelled, Course};
 use crate::subdivision::{Cycles, Subdivision};
 use std::cmp::Ordering;
@@ -127,12 +127,12 @@ impl Embedding<'_> {
     }
 
     /// The edge of a carrier that crosses the horizontal line an infinitesimal above a vertex.
-    fn edge_across(&self, carrier: u32, vertex: u32) -> u32 {
+    fn edge_across(&self, carrier: u32, vertex: u32) -> Option<u32> {
         let chain = self.chains.along(carrier);
         let rising = self.carriers.direction(carrier)[1] > 0;
         let below = |v: &u32| self.cmp(*v, vertex, 1).is_le();
         let n = chain.partition_point(|v| below(v) == rising);
-        self.edges.edge_at[self.chains.offsets[carrier as usize] as usize + n - 1]
+        self.edges.edge_at.edge(carrier, self.chains.offsets[carrier as usize] + n as u32 - 1)
     }
 
     /// For a run that begins at the first vertex of its component: the half-edge on whose left that lies, on the
@@ -148,7 +148,7 @@ impl Embedding<'_> {
                     gap if gap.abs() > at[1] + error => gap > 0.0,
                     _ => self.cmp_on_line(carrier, n, vertex).is_gt(),
                 };
-                if nearest.is_none_or(is_nearer) && self.edge_across(carrier, vertex) != NO_EDGE {
+                if nearest.is_none_or(is_nearer) && self.edge_across(carrier, vertex).is_some() {
                     nearest = Some((at, carrier));
                 }
             }
@@ -166,7 +166,7 @@ impl Embedding<'_> {
         }
         self.tree.query_leftwards(&beam, bound, |carrier, _| try_carrier(carrier));
         let (_, carrier) = nearest?;
-        let edge = self.edge_across(carrier, vertex);
+        let edge = self.edge_across(carrier, vertex)?;
         // The half-edge that leads down has the vertex on its left.
         let rising = self.carriers.direction(carrier)[1] > 0;
         Some(2 * edge + u32::from(rising))

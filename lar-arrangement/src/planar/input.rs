@@ -10,17 +10,15 @@ pub struct Drawing {
     pub(crate) segments: Vec<[u32; 2]>,
     /// Names of the regions.
     pub(crate) regions: Vec<String>,
-    /// Region of each segment, `NO_REGION` for loose ones.
-    pub(crate) region_of: Vec<u32>,
+    /// The segments that are not loose, ascending, each with its region.
+    pub(crate) outlines: Vec<(u32, u32)>,
 }
-
-pub(crate) const NO_REGION: u32 = u32::MAX;
 
 impl Drawing {
     /// No segments over some points (2 × n).
     #[must_use]
     pub fn new(points: Points) -> Self {
-        Self { points, segments: Vec::new(), regions: Vec::new(), region_of: Vec::new() }
+        Self { points, segments: Vec::new(), regions: Vec::new(), outlines: Vec::new() }
     }
 
     /// Segments by their coordinates x1, y1, x2, y2.
@@ -33,7 +31,6 @@ impl Drawing {
     pub fn from_segments(segments: &[[f64; 4]]) -> Self {
         let mut out = Self::new(Points::from_columns(2, segments.as_flattened().to_vec()));
         out.segments = (0..segments.len() as u32).map(|i| [2 * i, 2 * i + 1]).collect();
-        out.region_of = vec![NO_REGION; segments.len()];
         out
     }
 
@@ -62,7 +59,6 @@ impl Drawing {
     /// Adds a segment between two of the points.
     pub fn push_segment(&mut self, ends: [u32; 2]) {
         self.segments.push(ends);
-        self.region_of.push(NO_REGION);
     }
 
     /// Adds a region by its loops, each a cyclic list of points; returns its number.
@@ -75,8 +71,7 @@ impl Drawing {
         self.regions.push(name.into());
         for cycle in loops {
             for (i, &p) in cycle.iter().enumerate() {
-                self.segments.push([p, cycle[(i + 1) % cycle.len()]]);
-                self.region_of.push(region);
+                self.push_outline(region, [p, cycle[(i + 1) % cycle.len()]]);
             }
         }
         region as usize
@@ -90,8 +85,12 @@ impl Drawing {
     /// When there is no such region.
     pub fn push_region_segment(&mut self, region: usize, ends: [u32; 2]) {
         assert!(region < self.regions.len(), "region {region} of {}", self.regions.len());
+        self.push_outline(region as u32, ends);
+    }
+
+    fn push_outline(&mut self, region: u32, ends: [u32; 2]) {
+        self.outlines.push((self.segments.len() as u32, region));
         self.segments.push(ends);
-        self.region_of.push(region as u32);
     }
 
     /// Adds a region whose loops are lists of coordinates.

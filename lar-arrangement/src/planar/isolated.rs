@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 
 impl PlanarArrangement {
     /// Vertices without edges, each with the face that it lies in; they have the highest numbers. Each is a connected
-    /// component. There are none unless they are asked for.
+    /// component. There are none unless they are asked for ([`Isolated::Keep`](super::Isolated::Keep)).
     #[must_use]
     pub fn isolated_vertices(&self) -> &[(VertexId, FaceId)] {
         &self.isolated

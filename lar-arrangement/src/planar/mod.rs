@@ -5,6 +5,7 @@
 //! chains (events sorted and unified: vertices) → edges, cycles and faces → complex.
 
 mod along;
+mod arranger;
 mod assemble;
 mod boolean;
 mod bundles;
@@ -23,8 +24,10 @@ mod positions;
 mod query;
 mod restrict;
 mod result;
+mod slopes;
 
+pub use arranger::{Dangling, Isolated, PlanarArranger, planar_arrangement};
 pub use boolean::Polygons;
 pub use input::Drawing;
 pub use location::{Location, Locator};
-pub use result::{Dangling, PlanarArrangement, PlanarArranger, planar_arrangement};
+pub use result::PlanarArrangement;

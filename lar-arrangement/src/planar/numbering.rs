@@ -71,42 +71,48 @@ impl Joined {
     }
 }
 
+/// Of each grid point the first carrier that it ends, or a member of it.
+fn first_carriers(carriers: &Carriers) -> Vec<u32> {
+    let mut out = vec![u32::MAX; carriers.points.len()];
+    // By members, whose ends lie side by side in memory, and are ends of their carriers or inside them.
+    for &Member { carrier, ends, .. } in &carriers.members {
+        ends.iter().for_each(|&p| {
+            let first = &mut out[p as usize];
+            *first = carrier.min(*first);
+        });
+    }
+    out
+}
+
+/// Grid points inside carriers, of which there are few in most drawings, with these.
+fn touches(part: &Part, n_points: u32) -> Vec<(u32, u32)> {
+    let mut found = Vec::new();
+    for (carrier, chain) in part.chains() {
+        let inside = chain[1..chain.len() - 1].iter().filter(|&&v| v & !FIRST < n_points);
+        found.extend(inside.map(|&p| (p, carrier)));
+    }
+    found
+}
+
 impl<'a> Numbering<'a> {
     pub(super) fn new(carriers: &Carriers, crossings: &'a [[u32; 2]], parts: Vec<Part>) -> Self {
         let n_points = carriers.points.len() as u32;
         let joined = Joined::new(n_points as usize + crossings.len(), &parts);
         let firsts = joined.firsts(&parts);
-        let mut first_carrier = vec![u32::MAX; n_points as usize];
-        // By members, whose ends lie side by side in memory, and are ends of their carriers or inside them.
-        for &Member { carrier, ends, .. } in &carriers.members {
-            ends.iter().for_each(|&p| {
-                let first = &mut first_carrier[p as usize];
-                *first = carrier.min(*first);
-            });
-        }
-        let mut out = Self { n_points, crossings, parts, first_carrier, joined, firsts };
-        out.note_touches();
-        out
-    }
-
-    /// Grid points inside carriers, of which there are few in most drawings.
-    fn note_touches(&mut self) {
-        let touches = parallel::map(self.parts.len(), |i| {
-            let inside = |(carrier, chain): (u32, &[u32])| {
-                let inside = &chain[1..chain.len() - 1];
-                let points = inside.iter().filter(|&&v| v & !FIRST < self.n_points);
-                points.map(|&p| (p, carrier)).collect::<Vec<_>>()
-            };
-            self.parts[i].chains().flat_map(inside).collect::<Vec<_>>()
-        });
-        for (p, carrier) in touches.into_iter().flatten() {
-            let first = &mut self.first_carrier[p as usize];
+        let (mut first_carrier, touches) = parallel::join(
+            || first_carriers(carriers),
+            || parallel::map(parts.len(), |i| touches(&parts[i], n_points)).into_iter().flatten(),
+        );
+        for (p, carrier) in touches {
+            let first = &mut first_carrier[p as usize];
             *first = carrier.min(*first);
         }
+        Self { n_points, crossings, parts, first_carrier, joined, firsts }
     }
 
-    /// Calls `visit` with the vertices that occur first in a part, in their order.
-    fn visit_firsts(&self, part: usize, mut visit: impl FnMut(u32)) {
+    /// The vertices that occur first in a part, in their order.
+    fn first_vertices(&self, part: usize) -> Vec<u32> {
+        let mut found = Vec::with_capacity(self.parts[part].chain.len());
         let mut firsts = self.firsts[part].iter().peekable();
         let mut place = 0;
         for (carrier, chain) in self.parts[part].chains() {
@@ -120,11 +126,13 @@ impl<'a> Numbering<'a> {
                     marked & FIRST != 0
                 };
                 if is_first {
-                    visit(self.joined.root(v));
+                    found.push(self.joined.root(v));
                 }
                 place += 1;
             }
         }
+        found.shrink_to_fit();
+        found
     }
 
     fn source(&self, v: u32) -> VertexSource {
@@ -136,26 +144,22 @@ impl<'a> Numbering<'a> {
 
     /// Fills the chains, the vertices, and the vertices of the grid points.
     pub(super) fn finish(self, out: &mut Chains) {
-        let counts = parallel::map(self.parts.len(), |part| {
-            let mut n = 0;
-            self.visit_firsts(part, |_| n += 1);
-            n
-        });
-        let begins = offsets(counts.iter().copied());
+        let firsts = parallel::map(self.parts.len(), |part| self.first_vertices(part));
+        let begins = offsets(firsts.iter().map(|firsts| firsts.len() as u32));
         let n = self.n_points as usize + self.crossings.len();
         let new = parallel::map_light(n, |_| AtomicU32::new(NO_VERTEX));
-        let mut numbered = vec![0; begins[counts.len()] as usize];
-        let stretches = parallel::cut(&mut numbered, counts.iter().map(|&n| n as usize));
-        parallel::each(stretches.into_iter().enumerate().collect(), |(part, stretch)| {
-            let mut stretch = (begins[part]..).zip(stretch);
-            self.visit_firsts(part, |v| {
-                let (number, place) = stretch.next().expect("they have been counted");
-                new[v as usize].store(number, Relaxed);
-                *place = v;
-            });
-        });
-        out.vertices = parallel::map_light(numbered.len(), |i| self.source(numbered[i]));
-        drop(numbered);
+        out.vertices = vec![VertexSource::Point(0); begins[firsts.len()] as usize];
+        let stretches = parallel::cut(&mut out.vertices, firsts.iter().map(Vec::len));
+        parallel::each(
+            stretches.into_iter().zip(&firsts).zip(&begins).collect(),
+            |((stretch, firsts), &begin)| {
+                for ((source, &v), number) in stretch.iter_mut().zip(firsts).zip(begin..) {
+                    new[v as usize].store(number, Relaxed);
+                    *source = self.source(v);
+                }
+            },
+        );
+        drop(firsts);
         let number = |v: u32| new[self.joined.root(v) as usize].load(Relaxed);
         out.chain = vec![0; self.parts.iter().map(|part| part.chain.len()).sum()];
         let chains = parallel::cut(&mut out.chain, self.parts.iter().map(|part| part.chain.len()));

@@ -1,30 +1,96 @@
 //! Planar stage 1a: equal grid points are one.
 
 use crate::counting::{offsets, sorted_by_place};
+use crate::grid_points::hash;
 use crate::parallel;
-use rustc_hash::FxBuildHasher;
-use std::hash::BuildHasher;
+use std::ops::Range;
 
-/// The distinct points in first-seen order, and the number of each among them. O(n), in place.
-pub(crate) fn unify(mut points: Vec<[i64; 2]>) -> (Vec<[i64; 2]>, Vec<u32>) {
-    let first = first_equal(&points);
-    let (n_chunks, range) = parallel::chunks(points.len(), CHUNK);
-    let counts = parallel::map(n_chunks, |i| range(i).filter(|&i| first[i] == i as u32).count() as u32);
-    let begins = offsets(counts.into_iter());
-    if begins[n_chunks] as usize == points.len() {
-        return (points, first);
-    }
-    let mut number = vec![0; points.len()];
-    let chunks = parallel::cut(&mut number, (0..n_chunks).map(|i| range(i).len()));
-    parallel::each(chunks.into_iter().enumerate().collect(), |(i, chunk)| {
-        let firsts = chunk.iter_mut().zip(range(i)).filter(|(_, i)| first[*i] == *i as u32);
-        firsts.zip(begins[i]..).for_each(|((to, _), number)| *to = number);
+/// The distinct ones of n points in first-seen order, and the number of each among them. `is_again` tells of points
+/// after the first that they equal the one before, as every other one does where segments are the sides of polygons:
+/// these are not looked at. O(n).
+pub(crate) fn unify(
+    n: usize,
+    is_again: impl Fn(usize) -> bool + Sync + Send,
+    at: impl Fn(usize) -> [i64; 2] + Sync + Send,
+) -> (Vec<[i64; 2]>, Vec<u32>) {
+    let begun = Marks::new(n, |i| i == 0 || !is_again(i));
+    let mut points = vec![[0; 2]; begun.n];
+    let (n_chunks, range) = parallel::chunks(n, CHUNK);
+    let parts = parallel::cut(&mut points, (0..n_chunks).map(|chunk| begun.in_chunk(chunk).len()));
+    parallel::each(parts.into_iter().enumerate().collect(), |(chunk, part)| {
+        part.iter_mut().zip(begun.of(range(chunk))).for_each(|(to, i)| *to = at(i));
     });
-    let mut place = 0..;
-    points.retain(|_| place.next().is_some_and(|i| first[i] == i as u32));
-    points.shrink_to_fit();
-    let number = parallel::map_light(first.len(), |i| number[first[i] as usize]);
+    let mut number = first_equal(&points);
+    let firsts = Marks::new(number.len(), |i| number[i] == i as u32);
+    if firsts.n < points.len() {
+        parallel::each_chunk(&mut number, |_, part| part.iter_mut().for_each(|i| *i = firsts.number(*i)));
+        firsts.keep(&mut points);
+    }
+    if begun.n < n {
+        number = parallel::map_light(n, |i| number[begun.number(i as u32) as usize]);
+    }
     (points, number)
+}
+
+/// Some of the numbers below another one: a bit each, which stay in a processor's cache.
+struct Marks {
+    bits: Vec<u64>,
+    /// How many there are before each word of bits.
+    before: Vec<u32>,
+    n: usize,
+}
+
+impl Marks {
+    fn new(n: usize, is_marked: impl Fn(usize) -> bool + Sync + Send) -> Self {
+        let word = |w: usize| {
+            (64 * w..n.min(64 * w + 64)).fold(0, |bits, i| bits | u64::from(is_marked(i)) << (i % 64))
+        };
+        let bits = parallel::map_light(n.div_ceil(64), word);
+        let mut before = offsets(bits.iter().map(|bits| bits.count_ones()));
+        let n = before.pop().map_or(0, |n| n as usize);
+        Self { bits, before, n }
+    }
+
+    /// Which of the marked numbers i is, or the last one before it.
+    fn number(&self, i: u32) -> u32 {
+        let (word, up_to_it) = (i as usize / 64, u64::MAX >> (63 - i % 64));
+        self.before[word] + (self.bits[word] & up_to_it).count_ones() - 1
+    }
+
+    /// The marked numbers in a range that begins and, unless it is the last, ends with a word of bits.
+    fn of(&self, range: Range<usize>) -> impl Iterator<Item = usize> + '_ {
+        let words = range.start / 64..range.end.div_ceil(64);
+        words.flat_map(|w| {
+            let mut bits = self.bits[w];
+            std::iter::from_fn(move || {
+                let next = (bits != 0).then(|| 64 * w + bits.trailing_zeros() as usize);
+                bits &= bits.wrapping_sub(1);
+                next
+            })
+        })
+    }
+
+    /// Which of the marked numbers are in a chunk.
+    fn in_chunk(&self, chunk: usize) -> Range<usize> {
+        let begin = |chunk: usize| self.before.get(chunk * (CHUNK / 64)).map_or(self.n, |&n| n as usize);
+        begin(chunk)..begin(chunk + 1)
+    }
+
+    /// Leaves the other points out: first within chunks, then what is left of these moves together.
+    fn keep(&self, points: &mut Vec<[i64; 2]>) {
+        parallel::each(points.chunks_mut(CHUNK).enumerate().collect(), |(chunk, part)| {
+            let begin = chunk * CHUNK;
+            for (to, from) in self.of(begin..begin + part.len()).enumerate() {
+                part[to] = part[from - begin];
+            }
+        });
+        for chunk in 0..points.len().div_ceil(CHUNK) {
+            let (from, to) = (chunk * CHUNK, self.in_chunk(chunk));
+            points.copy_within(from..from + to.len(), to.start);
+        }
+        points.truncate(self.n);
+        points.shrink_to_fit();
+    }
 }
 
 /// A part's table of this many points stays in a processor's cache.
@@ -36,13 +102,10 @@ const CHUNK: usize = 1 << 15;
 /// For each point the first one that equals it. Equal points have equal hashes, so parts by hash are independent.
 fn first_equal(points: &[[i64; 2]]) -> Vec<u32> {
     let n_parts = (points.len() / PART).next_power_of_two();
-    if n_parts == 1 {
-        return first_of_part(points, &[&Vec::from_iter(0..points.len() as u32)]).concat();
-    }
     let (n_chunks, range) = parallel::chunks(points.len(), CHUNK);
     let chunks = parallel::map(n_chunks, |chunk| {
         let all: Vec<u32> = range(chunk).map(|i| i as u32).collect();
-        sorted_by_place(n_parts, &all, |&i| hash(points[i as usize]) % n_parts)
+        sorted_by_place(n_parts, &all, |&i| hash(points[i as usize]) as usize % n_parts)
     });
     let of_part = |chunk: usize, part: usize| {
         let (offsets, numbers) = &chunks[chunk];
@@ -53,8 +116,7 @@ fn first_equal(points: &[[i64; 2]]) -> Vec<u32> {
         first_of_part(points, &lists)
     });
     let mut out = vec![0; points.len()];
-    let outs = parallel::cut(&mut out, (0..n_chunks).map(|i| range(i).len()));
-    parallel::each(outs.into_iter().enumerate().collect(), |(chunk, out)| {
+    parallel::each(out.chunks_mut(CHUNK).enumerate().collect(), |(chunk, out)| {
         for (part, firsts) in firsts.iter().enumerate() {
             for (&i, &first) in of_part(chunk, part).iter().zip(&firsts[chunk]) {
                 out[i as usize - range(chunk).start] = first;
@@ -62,10 +124,6 @@ fn first_equal(points: &[[i64; 2]]) -> Vec<u32> {
         }
     });
     out
-}
-
-fn hash(point: [i64; 2]) -> usize {
-    (FxBuildHasher.hash_one(point) >> 20) as usize
 }
 
 /// For each of some points, in lists, the first one of all that equals it. A table with open addressing, at most half
@@ -77,7 +135,7 @@ fn first_of_part(points: &[[i64; 2]], part: &[&[u32]]) -> Vec<Vec<u32>> {
     let mut table = vec![EMPTY; mask + 1];
     let mut first = |i: u32| {
         // The lowest bits are those of the part.
-        let mut slot = (hash(points[i as usize]) >> 12) & mask;
+        let mut slot = (hash(points[i as usize]) >> 24) as usize & mask;
         loop {
             match table[slot] {
                 EMPTY => {
@@ -103,7 +161,7 @@ mod tests {
         fn numbers_lead_back_to_the_points(points in prop::collection::vec(prop::array::uniform2(-3i64..3), 0..60)) {
             // Repeated until there is more than one part.
             let points: Vec<[i64; 2]> = (0..1000).flat_map(|k| points.iter().map(move |p| [p[0], p[1] + k])).collect();
-            let (distinct, number) = unify(points.clone());
+            let (distinct, number) = unify(points.len(), |i| points[i] == points[i - 1], |i| points[i]);
             let back: Vec<[i64; 2]> = number.iter().map(|&i| distinct[i as usize]).collect();
             prop_assert_eq!(&back, &points);
             let mut highest = 0;

@@ -9,9 +9,10 @@ use crate::error::ArrangementError;
 use crate::expression::Expression;
 use crate::merge::{self, Faces, Merged, Removal};
 use crate::operators::{boundary_1, boundary_2};
+use crate::planar::arranger::{Dangling, Isolated, PlanarArranger};
 use crate::planar::edges::NO_EDGE;
 use crate::planar::input::Drawing;
-use crate::planar::result::{Dangling, PlanarArrangement, PlanarArranger};
+use crate::planar::result::PlanarArrangement;
 use crate::union_find::UnionFind;
 use lar_core::{ChainComplex, FaceId, Points, VertexId};
 use rustc_hash::FxHashMap;
@@ -49,12 +50,12 @@ impl PlanarArranger<'_> {
         }
         let mut all = drawing.clone();
         let sigma = all.push_polygon(SIGMA, loops);
-        let whole = self.dangling(Dangling::Keep).keep_isolated(false).arrange(&all)?;
+        let whole = self.dangling(Dangling::Keep).isolated(Isolated::Drop).arrange(&all)?;
         let inside = whole
             .faces_where(&Expression::solid(sigma), FillRule::EvenOdd)
             .expect("loops are closed, so their parity tells inside from outside");
         let mut out = whole.restricted(&inside, self.dangling);
-        if self.keep_isolated {
+        if self.isolated == Isolated::Keep {
             let is_inside = |face, out: &PlanarArrangement| out.winding(face, sigma) % 2 != 0;
             let kept: Vec<bool> = (0..=out.n_faces() as u32).map(|f| is_inside(FaceId(f), &out)).collect();
             out.add_isolated(|face| kept[face.index()]);
@@ -106,9 +107,7 @@ impl PlanarArrangement {
         self.sources = merged.vertices.iter().map(|&v| self.sources[v as usize]).collect();
         let mut new_edge = vec![NO_EDGE; removed.len()];
         (0..).zip(merged.old_half_edge.iter()).for_each(|(new, &h)| new_edge[(h / 2) as usize] = new);
-        for edge in self.edge_at.iter_mut().filter(|edge| **edge != NO_EDGE) {
-            *edge = new_edge[*edge as usize];
-        }
+        self.edge_at = self.edge_at.renumbered(&self.chains, &new_edge);
         self.carrier_of = merged.old_half_edge.iter().map(|&h| self.carrier_of[(h / 2) as usize]).collect();
         let boundaries =
             vec![boundary_1(points.len(), merged.edges.clone()), boundary_2(merged.edges.len(), &merged)];

@@ -5,7 +5,7 @@ use crate::common::Random;
 use crate::fraction::{Fraction, Point, point};
 use crate::inputs;
 use crate::oracle::{Directed, Oracle, Segment, bridges, ends, is_on, winding};
-use lar_arrangement::planar::{Dangling, Drawing, Location, PlanarArranger};
+use lar_arrangement::planar::{Dangling, Drawing, Isolated, Location, PlanarArranger};
 use lar_core::{EdgeId, FaceId, Points};
 use std::collections::BTreeSet;
 
@@ -31,7 +31,7 @@ fn check_isolated(segments: &[Segment], points: &[[i64; 2]]) {
         for p in points {
             drawing.push_point(p.map(|x| x as f64));
         }
-        let a = PlanarArranger::new().dangling(dangling).keep_isolated(true).arrange(&drawing);
+        let a = PlanarArranger::new().dangling(dangling).isolated(Isolated::Keep).arrange(&drawing);
         let a = a.unwrap_or_else(|e| panic!("{e}"));
         let oracle = Oracle::new(segments, keep);
         let expected = expected_isolated(segments, points, &oracle);
@@ -152,7 +152,7 @@ fn a_hole_of_sigma_stays_empty() {
         ),
         (5, 4)
     );
-    let points = PlanarArranger::new().keep_isolated(true);
+    let points = PlanarArranger::new().isolated(Isolated::Keep);
     let mut dots = Drawing::new(Points::from_columns(2, vec![1., 1., 4., 4., 9., 9., 0., 4.]));
     dots.push_segment([0, 0]);
     let a = points.arrange_within(&dots, &sigma).expect("well formed");
