@@ -1,18 +1,23 @@
-//! docs/formats.md and what the command really writes are the same.
+//! docs/formats.md, the schemas of docs/schema, and what the command really writes are the same.
 
+#[path = "support/schema.rs"]
+mod schema;
 mod support;
 
+use lar_core::{Struct, cuboid_grid, r, t};
+use schema::schema;
 use serde_json::Value;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use support::{Place, fixture, words};
 
 const DOCUMENT: &str = include_str!("../../docs/formats.md");
 
-/// The fields of a report as its table lists them.
-fn documented(report: &str) -> BTreeSet<String> {
+/// The fields of a report as its table lists them, with what it says of each.
+fn documented(report: &str) -> BTreeMap<String, String> {
     let section = DOCUMENT.split("\n### ").find(|s| s.starts_with(&format!("`{report}`"))).expect(report);
-    let rows = section.lines().filter_map(|line| line.strip_prefix("| `")?.split_once('`'));
-    rows.map(|(field, _)| field.to_owned()).collect()
+    let rows =
+        section.lines().filter_map(|line| line.strip_prefix("| `")?.strip_suffix(" |")?.split_once("` | "));
+    rows.map(|(field, text)| (field.to_owned(), text.to_owned())).collect()
 }
 
 /// The fields of a report as it is written, those of all elements of lists together.
@@ -31,7 +36,7 @@ fn fields(path: &str, value: &Value, found: &mut BTreeSet<String>) {
     }
 }
 
-/// Runs a command with `--json -`; its report has the fields of the table.
+/// Runs a command with `--json -`; its report has the fields of the table, and its schema says of them what the table says.
 #[track_caller]
 fn check(place: &Place, line: &str, report: &str) {
     let run = place.lar(&[words(line), vec!["--json", "-"]].concat());
@@ -44,7 +49,13 @@ fn check(place: &Place, line: &str, report: &str) {
         assert_eq!(value[field], expected, "{field} of {line}");
         found.remove(field);
     }
-    assert_eq!(found, documented(report), "{line}");
+    let documented = documented(report);
+    assert_eq!(found, documented.keys().cloned().collect(), "{line}");
+    let schema = schema(&format!("report-{report}"));
+    schema::check(&schema, &value);
+    let mut described = Vec::new();
+    schema::descriptions("", &schema, &mut described);
+    assert_eq!(described.into_iter().collect::<BTreeMap<_, _>>(), documented, "the schema of {report}");
 }
 
 #[test]
@@ -67,6 +78,58 @@ fn reports_have_the_documented_fields() {
     check(&place, "plane --boolean walls-openings plan.svg", "plane-boolean");
     let reports = DOCUMENT.split("\n### ").skip(1).count();
     assert_eq!(reports, 12, "each report of the document is checked above");
+}
+
+/// Files of models, hierarchies, complexes are what their schemas say.
+#[test]
+fn models_are_what_their_schemas_say() {
+    let check = |name: &str, text: &str| {
+        schema::check(&schema(name), &serde_json::from_str(text).expect("JSON"));
+    };
+    let cube = cuboid_grid(&[1, 1, 1]);
+    check("model-1", &cube.to_json().expect("a model"));
+    let scene = Struct::new("inner").with(("A", cube.clone())).with(t(&[1.0, 0.0, 0.0])).with(cube);
+    let scene = Struct::new("outer").with(r([0.1, 0.0, 0.0])).with(scene);
+    check("struct-1", &scene.to_json().expect("a hierarchy"));
+    let place = Place::with_cubes();
+    for (version, options) in [("1", ""), ("2", "--exact")] {
+        let run = place.lar(&words(format!("arrange a.obj b.obj --complex c.json {options}").trim_end()));
+        assert_eq!(run.code, 0, "{run:?}");
+        check(&format!("chain-complex-{version}"), &place.read("c.json"));
+    }
+}
+
+/// A view as `lar export-html` puts it into a page.
+#[cfg(feature = "viewer")]
+#[test]
+fn views_are_what_their_schema_says() {
+    use lar_viewer::session::{Session, Settings};
+    use lar_viewer::{Answers, Camera, CellData, SharedView};
+    let grid = lar_core::ChainComplex::from_model(&cuboid_grid(&[2, 1, 1])).expect("a grid");
+    let session = Session::new(CellData::new(grid).expect("cells"));
+    let plain: Settings = session.settings();
+    let changed = Settings {
+        outline: Some(lar_viewer::Outlined::Solids),
+        section: lar_viewer::session::Section {
+            normal: lar_viewer::session::Normal::Free { azimuth: 1.0, elevation: 0.5 },
+            ..plain.section
+        },
+        ..plain.clone()
+    };
+    for settings in [plain, changed] {
+        let session = session.clone().with_settings(settings);
+        let view = SharedView {
+            title: "grid".into(),
+            session,
+            camera: Camera::default(),
+            is_fitted: true,
+            answers: Answers::default(),
+        };
+        schema::check(
+            &schema("view-1"),
+            &serde_json::from_str(&view.to_json().expect("a view")).expect("JSON"),
+        );
+    }
 }
 
 /// Every format of the first table is read and written as it says.

@@ -56,8 +56,9 @@ fn the_command_builds_without_graphics() {
 }
 
 /// The same list as in deny.toml.
-const LICENCES: [&str; 9] = [
+const LICENCES: [&str; 10] = [
     "MIT",
+    "MIT-0",
     "Apache-2.0",
     "Apache-2.0 WITH LLVM-exception",
     "BSD-2-Clause",
@@ -79,6 +80,20 @@ fn is_allowed(expression: &str) -> bool {
             None => any(part),
         },
     )
+}
+
+/// The line below its title.
+#[test]
+fn the_readme_states_rust_version_and_licence() {
+    let text = cargo(&["metadata", "--format-version", "1", "--locked", "--no-deps"]);
+    let metadata: Value = serde_json::from_str(&text).expect("cargo metadata is JSON");
+    let line = include_str!("../../README.md").lines().nth(2).expect("a line below the title");
+    for package in metadata["packages"].as_array().expect("a list of packages") {
+        let version = package["rust_version"].as_str().expect("a Rust version");
+        assert!(line.contains(&format!("Rust {version} or newer")), "{}: {version}", package["name"]);
+        assert_eq!(package["license"], "MIT OR Apache-2.0", "{}", package["name"]);
+    }
+    assert!(line.contains("[MIT](LICENSE-MIT) or [Apache-2.0](LICENSE-APACHE)"), "{line}");
 }
 
 #[test]
