@@ -39,12 +39,12 @@ pub(crate) fn assemble(
     let Parents { parents, offsets: parent_offsets, crossed: crossed_ends } =
         Parents::new(&soup, &skeleton, &dissolved);
     let coefficients = std::mem::take(&mut soup.coefficients);
-    let mut walls = Walls::new();
-    for ((&begin, &end), &cells) in parent_offsets.iter().zip(&crossed_ends).zip(&cells_of_face) {
+    let walls = Walls::of_faces(cells_of_face.len(), |walls, face| {
         let coefficient = |p: &Parent| i32::from(coefficients[p.solid as usize][p.face as usize]);
-        let of_face = parents[begin as usize..end as usize].iter();
-        walls.push_face(cells, of_face.map(|p| (p.solid, coefficient(p) * i32::from(p.sign))));
-    }
+        let of_face = parents[parent_offsets[face] as usize..crossed_ends[face] as usize].iter();
+        let jumps = of_face.map(|p| (p.solid, coefficient(p) * i32::from(p.sign)));
+        walls.push_face(cells_of_face[face], jumps);
+    });
     let windings = Windings::new(shells.n_cells as usize, surfaces.len(), &walls);
     course.begin("complex", &mut stats)?;
     let n_faces = dissolved.old_face.len();

@@ -24,6 +24,7 @@ use crate::parallel;
 use crate::progress::{Cancelled, Course};
 use crate::soup::Soup;
 use crate::union_find::UnionFind;
+use std::ops::Range;
 
 /// Facets a chunk of work.
 const FACETS_A_CHUNK: usize = 1 << 14;
@@ -136,13 +137,12 @@ fn projected(geometry: &Geometry, look: u8, p: u32) -> [f64; 2] {
 
 /// Sets of facets that look the same way and are joined by edges, and where each looks.
 fn candidates(soup: &Soup, looks: &[u8]) -> (Vec<u32>, Vec<u8>) {
-    let mut sets = UnionFind::new(looks.len());
-    for &[f, g] in &soup.facets_of_edge {
-        if f < MANY && g < MANY && looks[f as usize] == looks[g as usize] && looks[f as usize] != NOWHERE {
-            sets.union(f, g);
-        }
-    }
-    let (mut of_facet, n) = sets.labels();
+    let look_alike = |&(f, g): &(u32, u32)| {
+        f < MANY && g < MANY && looks[f as usize] == looks[g as usize] && looks[f as usize] != NOWHERE
+    };
+    let users = &soup.facets_of_edge;
+    let joined = |edges: Range<usize>| users[edges].iter().map(|&[f, g]| (f, g)).filter(look_alike);
+    let (mut of_facet, n) = UnionFind::of_pairs(looks.len(), users.len(), joined).labels();
     let mut sizes = vec![0; n as usize];
     of_facet.iter().for_each(|&set| sizes[set as usize] += 1);
     let mut number = vec![NO_GROUP; n as usize];

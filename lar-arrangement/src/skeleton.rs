@@ -7,6 +7,7 @@ use crate::fragment::{FacetParent, Fragments, Groups, Piece, WHOLE};
 use crate::half_edges;
 use crate::interner::Interner;
 use crate::kernel::{Along, Direction, Geometry, Vertex, VertexDef};
+use crate::parallel;
 use crate::soup::Soup;
 use crate::split::Cuts;
 use lar_core::Cells;
@@ -52,7 +53,15 @@ impl Skeleton {
                 piece.ends = piece.ends.map(|v| if v < n_base { v } else { ids[(v - n_base) as usize] });
             }
         }
-        let (vertices, compact) = used_vertices(&fragments, groups, interner, soup);
+        let n_points = soup.geometry.n_points() as u32;
+        let ((vertices, compact), input_edges) = parallel::join(
+            || used_vertices(&fragments, groups, interner, soup),
+            || {
+                let pieces = fragments.iter().flat_map(|part| &part.pieces).map(|piece| piece.ends);
+                let between_points = pieces.filter(|ends| ends.iter().all(|&v| v < n_points));
+                soup.edges_between(between_points.map(|[a, b]| [a.min(b), a.max(b)]))
+            },
+        );
         let n_cut: usize = fragments.iter().map(|part| part.half_edges.len()).sum();
         let n_loops: usize = fragments.iter().map(|part| part.loop_ends.len()).sum();
         let (n_facets, n_half_edges) = (soup.n_facets(), soup.facet_edges.indices().len());
@@ -72,10 +81,6 @@ impl Skeleton {
             ..Self::default()
         };
         let whole = vec![NOT_SEEN; soup.edges.len()];
-        let n_points = soup.geometry.n_points() as u32;
-        let pieces = fragments.iter().flat_map(|part| &part.pieces).map(|piece| piece.ends);
-        let between_points = pieces.filter(|ends| ends.iter().all(|&v| v < n_points));
-        let input_edges = soup.edges_between(between_points.map(|[a, b]| [a.min(b), a.max(b)]));
         let ends = |k: usize| fragments.iter().flat_map(|part| &part.pieces).map(move |piece| piece.ends[k]);
         let (tails, heads): (Vec<u32>, Vec<u32>) = (ends(0).collect(), ends(1).collect());
         let first_piece = half_edges::first_of_edge(compact.len(), &tails, &heads);

@@ -1,6 +1,10 @@
 //! Disjoint sets of small integers; the representative is the smallest member, so results do not depend on the
 //! order of the unions.
 
+use crate::parallel;
+use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
+
 /// Disjoint sets over 0..n.
 #[derive(Clone, Debug)]
 pub(crate) struct UnionFind {
@@ -12,14 +16,48 @@ impl UnionFind {
         Self { parent: (0..n as u32).collect() }
     }
 
-    /// Smallest member of the set of x. Amortised O(log n) by path halving.
-    pub(crate) fn find(&mut self, mut x: u32) -> u32 {
-        while self.parent[x as usize] != x {
-            let grandparent = self.parent[self.parent[x as usize] as usize];
-            self.parent[x as usize] = grandparent;
-            x = grandparent;
+    /// The sets that n lists of pairs join. Every thread takes its part of the lists and joins the pairs within its part
+    /// of the elements; others are joined after. So early lists should be of early elements.
+    pub(crate) fn of_pairs<I: Iterator<Item = (u32, u32)>>(
+        n: usize,
+        n_lists: usize,
+        pairs: impl Fn(Range<usize>) -> I + Sync + Send,
+    ) -> Self {
+        let mut out = Self::new(n);
+        if parallel::n_threads() == 1 {
+            pairs(0..n_lists).for_each(|(x, y)| _ = out.union(x, y));
+            return out;
         }
-        x
+        let parts: Vec<Range<usize>> =
+            (0..parallel::n_threads()).map(|part| parallel::part_of(n, part)).collect();
+        let slices = parallel::cut(&mut out.parent, parts.iter().map(Range::len));
+        let slices: Vec<Mutex<&mut [u32]>> = slices.into_iter().map(Mutex::new).collect();
+        let across = parallel::map(parts.len(), |i| {
+            let range = &parts[i];
+            let mut parent = slices[i].lock().unwrap_or_else(PoisonError::into_inner);
+            let mut part = Part { parent: &mut parent, begin: range.start as u32 };
+            let mut across = Vec::new();
+            for (x, y) in pairs(parallel::part_of(n_lists, i)) {
+                if range.contains(&(x as usize)) && range.contains(&(y as usize)) {
+                    part.union(x, y);
+                } else {
+                    across.push((x, y));
+                }
+            }
+            across
+        });
+        drop(slices);
+        across.into_iter().flatten().for_each(|(x, y)| _ = out.union(x, y));
+        out
+    }
+
+    /// Smallest member of the set of x. Amortised O(log n) by path halving.
+    pub(crate) fn find(&mut self, x: u32) -> u32 {
+        self.whole().find(x)
+    }
+
+    fn whole(&mut self) -> Part<'_> {
+        Part { parent: &mut self.parent, begin: 0 }
     }
 
     /// Smallest member of the set of x, without shortening the way to it.
@@ -32,9 +70,7 @@ impl UnionFind {
 
     /// Joins the sets of x and y; true when they were distinct.
     pub(crate) fn union(&mut self, x: u32, y: u32) -> bool {
-        let (x, y) = (self.find(x), self.find(y));
-        self.parent[x.max(y) as usize] = x.min(y);
-        x != y
+        self.whole().union(x, y)
     }
 
     /// Number of each element's set; sets are numbered by their smallest members. Also the number of sets.
@@ -51,5 +87,56 @@ impl UnionFind {
             }
         }
         (labels, n)
+    }
+}
+
+/// Consecutive elements whose sets have no others.
+struct Part<'a> {
+    parent: &'a mut [u32],
+    /// The first of them.
+    begin: u32,
+}
+
+impl Part<'_> {
+    fn at(&mut self, x: u32) -> &mut u32 {
+        &mut self.parent[(x - self.begin) as usize]
+    }
+
+    fn find(&mut self, mut x: u32) -> u32 {
+        loop {
+            let parent = *self.at(x);
+            if parent == x {
+                return x;
+            }
+            let grandparent = *self.at(parent);
+            *self.at(x) = grandparent;
+            x = grandparent;
+        }
+    }
+
+    fn union(&mut self, x: u32, y: u32) -> bool {
+        let (x, y) = (self.find(x), self.find(y));
+        *self.at(x.max(y)) = x.min(y);
+        x != y
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::num::NonZeroUsize;
+
+    proptest! {
+        #[test]
+        fn sets_do_not_depend_on_the_threads(pairs in prop::collection::vec((0u32..60, 0u32..60), 0..60)) {
+            let mut one_by_one = UnionFind::new(60);
+            pairs.iter().for_each(|&(x, y)| _ = one_by_one.union(x, y));
+            for threads in 1..=3 {
+                let found = || UnionFind::of_pairs(60, pairs.len(), |range| pairs[range].iter().copied()).labels();
+                let found = parallel::with_threads(NonZeroUsize::new(threads), found).unwrap();
+                prop_assert_eq!(found, one_by_one.labels());
+            }
+        }
     }
 }

@@ -5,6 +5,8 @@
 //! all faces if and only if its boundary is closed; otherwise its parity may still be (closed but not oriented
 //! consistently); otherwise the surface is open and bounds nothing.
 
+use crate::parallel;
+
 /// What a surface bounds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Closure {
@@ -25,6 +27,12 @@ pub(crate) struct Windings {
     pub closure: Vec<Closure>,
 }
 
+/// A face is compared with so many walls before it.
+const RECENT: usize = 4;
+
+/// Faces a chunk of work.
+const FACES_A_CHUNK: usize = 1 << 14;
+
 /// The change of winding numbers across a face, from front to back: solid, signed sum, sum modulo 2.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Jump {
@@ -33,8 +41,8 @@ pub(crate) struct Jump {
     pub odd: bool,
 }
 
-/// Faces that follow each other, lie between the same cells and have the same jumps: one wall. Most faces of a mesh are
-/// of very few.
+/// Faces that come soon after each other, lie between the same cells and have the same jumps: one wall. Most faces of a mesh
+/// are of very few.
 #[derive(Debug)]
 pub(crate) struct Walls {
     /// The cells in front and behind.
@@ -64,11 +72,45 @@ impl Walls {
                 odd: same.iter().fold(false, |odd, j| odd ^ j.odd),
             }));
         }
-        let last = self.cells.len().checked_sub(1);
-        if last.is_some_and(|last| self.cells[last] == cells && self.of(last as u32) == &self.jumps[begin..])
-        {
+        if self.is_known(cells, &self.jumps[begin..]) {
             self.jumps.truncate(begin);
         } else {
+            self.cells.push(cells);
+            self.offsets.push(self.jumps.len() as u32);
+        }
+    }
+
+    /// Whether one of the last walls is the same.
+    fn is_known(&self, cells: [u32; 2], jumps: &[Jump]) -> bool {
+        let n = self.cells.len();
+        (n.saturating_sub(RECENT)..n)
+            .rev()
+            .any(|wall| self.cells[wall] == cells && self.of(wall as u32) == jumps)
+    }
+
+    /// Adds faces that come after these.
+    fn append(&mut self, others: &Self) {
+        for (cells, jumps) in others.iter() {
+            self.push(cells, jumps);
+        }
+    }
+
+    /// The walls of n faces: `push(walls, face)` adds each.
+    pub(crate) fn of_faces(n: usize, push: impl Fn(&mut Self, usize) + Sync + Send) -> Self {
+        let (n_chunks, range) = parallel::chunks(n, FACES_A_CHUNK);
+        let parts = parallel::map(n_chunks, |chunk| {
+            let mut walls = Self::new();
+            range(chunk).for_each(|face| push(&mut walls, face));
+            walls
+        });
+        let mut all = Self::new();
+        parts.iter().for_each(|part| all.append(part));
+        all
+    }
+
+    fn push(&mut self, cells: [u32; 2], jumps: &[Jump]) {
+        if !self.is_known(cells, jumps) {
+            self.jumps.extend_from_slice(jumps);
             self.cells.push(cells);
             self.offsets.push(self.jumps.len() as u32);
         }

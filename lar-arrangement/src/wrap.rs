@@ -127,15 +127,14 @@ fn opposite(a: u32, b: u32, skeleton: &Skeleton, geometry: &Geometry) -> bool {
 
 /// Shell of each face side (2f front, 2f + 1 back), numbered by the first side in them, and their number.
 pub(crate) fn shells(rings: &Cells, n_faces: usize) -> (Vec<u32>, u32) {
-    let mut sides = UnionFind::new(2 * n_faces);
-    for ring in rings.iter() {
-        let mut before = ring.last();
-        for next in ring {
-            before.into_iter().for_each(|&entry| _ = sides.union(entry, next ^ 1));
-            before = Some(next);
-        }
-    }
-    sides.labels()
+    let facing = |edges: Range<usize>| edges.flat_map(|edge| facing_sides(&rings[edge]));
+    UnionFind::of_pairs(2 * n_faces, rings.len(), facing).labels()
+}
+
+/// The pairs of sides that face each other around an edge.
+fn facing_sides(ring: &[u32]) -> impl Iterator<Item = (u32, u32)> + '_ {
+    let last = ring.last().copied();
+    ring.iter().scan(last, |before, &next| before.replace(next).map(|entry| (entry, next ^ 1)))
 }
 
 /// Component of each shell, and their number. Faces that share an edge share a shell, so components of faces connected
