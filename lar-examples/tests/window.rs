@@ -26,8 +26,8 @@ fn an_arrangement_is_asked_wrapped_measured_and_cut() {
     session.look();
     // The first fit may have been to another size.
     session.xdotool("key f");
-    let picture = |name: &str| PathBuf::from(DIR).join("tests/pictures").join(name);
-    check_screen(&session, SIZE, &picture("window.png"));
+    let picture = |name: &str| PathBuf::from(DIR).join("tests/screens").join(name);
+    check_screen(&session, SIZE, &picture("view.png"));
     // Letters are shortcuts outside of the field: none of these may be taken for one.
     session.check_changes("a Boolean expression", 20_000, |s| {
         s.at_once(|s| {
@@ -44,7 +44,7 @@ fn an_arrangement_is_asked_wrapped_measured_and_cut() {
             s.xdotool("key p");
         });
     });
-    check_screen(&session, SIZE, &picture("window.png"));
+    check_screen(&session, SIZE, &picture("view.png"));
     session.check_changes("a cell of the tree", 1_000, |s| s.xdotool("mousemove 144 133 click 1"));
     session.check_changes("its gift wrapping", 20_000, |s| s.xdotool("mousemove 686 570 click 1"));
     session.check_changes("the next corolla", 2_000, |s| s.xdotool("mousemove 300 600 key period"));
@@ -54,7 +54,7 @@ fn an_arrangement_is_asked_wrapped_measured_and_cut() {
             s.xdotool("key Escape");
         });
     });
-    check_screen(&session, SIZE, &picture("window.png"));
+    check_screen(&session, SIZE, &picture("view.png"));
     session.check_changes("numbers of the cells, vertices", 1_000, |s| {
         s.at_once(|s| {
             ["696 313", "626 244"].iter().for_each(|at| s.xdotool(&format!("mousemove {at} click 1")));
@@ -75,7 +75,7 @@ fn an_arrangement_is_asked_wrapped_measured_and_cut() {
     });
     session.check_changes("cells pulled apart", 20_000, |s| s.drag(1, [624, 106], [650, 106]));
     session.xdotool("mousemove 300 600");
-    check_screen(&session, SIZE, &picture("window_cut.png"));
+    check_screen(&session, SIZE, &picture("cut.png"));
     session.check_changes("a small window", 20_000, |s| s.xdotool("search --name lar windowsize 700 420"));
     // Measuring is left, what was measured stays.
     session.at_once(|s| {

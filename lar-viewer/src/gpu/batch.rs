@@ -10,15 +10,16 @@
 //! triangle are stored in order of position: triangles that two cells share then get bit-identical depths.
 
 use super::cull::Ball;
+use super::curves::mean_curve_length;
 use super::elements::{Dot, ELEMENT_BYTES, KINDS, LINES, Line, MESH, POINTS, STROKES, Stroke, Vertex};
 use super::frame::Placement;
 use crate::scene::{Drawable, Extents, Shape, point3};
 use crate::{Label, Scene, TextStyle, text};
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use lar_core::TriangleMesh;
 use std::ops::Range;
 
-/// Cell edges are no wider than this part of the cell's mean edge, so that a million cells are not a black heap.
+/// Cell edges are no wider than this part of the mean curve that they make, so that a million cells are not a black heap.
 const EDGE_WIDTH: f32 = 0.12;
 /// Longer than anything in a scene, which has radius 1.
 const UNLIMITED: f32 = 1e6;
@@ -116,7 +117,7 @@ impl Batch {
             Shape::Lines { segments, width, cell_edges } => {
                 let place = |s: &[[f64; 3]; 2]| s.map(|p| self.place(p));
                 let placed: Vec<[[f32; 3]; 2]> = segments.iter().map(place).collect();
-                let most = if *cell_edges { EDGE_WIDTH * mean_length(&placed) } else { UNLIMITED };
+                let most = if *cell_edges { EDGE_WIDTH * mean_curve_length(&placed) } else { UNLIMITED };
                 for (part, range) in self.new_parts(index, LINES, self.lines.len(), placed.len()) {
                     let line = |&[start, end]: &[[f32; 3]; 2]| Line { start, part, end, width: *width, most };
                     self.lines.extend(placed[range].iter().map(line));
@@ -184,11 +185,6 @@ impl Batch {
     fn place(&self, p: [f64; 3]) -> [f32; 3] {
         self.placement.scene_from_world(p).map(|x| x as f32)
     }
-}
-
-fn mean_length(segments: &[[[f32; 3]; 2]]) -> f32 {
-    let n = segments.len().max(1) as f32;
-    segments.iter().map(|&[a, b]| Vec3::from(a).distance(Vec3::from(b))).sum::<f32>() / n
 }
 
 /// The unit normal in units of 1/32767; `None` when the triangle has no area.

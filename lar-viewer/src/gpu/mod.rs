@@ -3,6 +3,7 @@
 pub(crate) mod batch;
 pub(crate) mod context;
 pub(crate) mod cull;
+mod curves;
 pub(crate) mod elements;
 pub(crate) mod frame;
 mod kinds;
