@@ -27,6 +27,11 @@ const FEW: usize = 8;
 const MOST_DIVISIONS: u32 = 16;
 /// How often, one in another, without fewer facets in the parts.
 const MOST_IN_VAIN: u32 = 2;
+/// For each pair of facets so many facets in boxes are looked at at most: no more work than to find what the two have in
+/// common.
+const LOOKS_A_PAIR: u64 = 64;
+/// So many are looked at for few pairs, and no more than so many for any number of them: a gigabyte of boxes.
+const LOOKS: [u64; 2] = [1 << 16, 1 << 27];
 /// Margin in grid steps for all that rounding does to a position, and more.
 const MARGIN: f64 = 1.0;
 /// Pairs of facets a chunk of work.
@@ -115,8 +120,7 @@ struct Set {
 }
 
 impl Live {
-    /// Divides the space around a soup whose facets meet in pairs. O(facets · divisions) where boxes are as large as the
-    /// facets.
+    /// Divides the space around a soup whose facets meet in pairs. O(pairs) boxes and facets in them.
     pub(crate) fn new(
         soup: &Soup,
         (tree, pairs): (&BoxTree, &[[u32; 2]]),
@@ -131,7 +135,8 @@ impl Live {
         let (nodes, boxes, found) = (vec![Node::Dead], Vec::new(), Vec::new());
         let mut division = Division { soup, plates: &plates, solids, circuit, nodes, boxes, found, course };
         let facets = (0..plates.len() as u32).collect();
-        division.divide(0, &Part { around: all, facets, unknown, divisions: 0, in_vain: 0 })?;
+        let looks = (LOOKS_A_PAIR * pairs.len() as u64).clamp(LOOKS[0], LOOKS[1]);
+        division.divide(0, &Part { around: all, facets, unknown, divisions: 0, in_vain: 0, looks })?;
         let Division { nodes, boxes, found, .. } = division;
         let (set_of, n_sets) = overlapping(soup, pairs, course)?.labels();
         let nowhere = || Set { around: Aabb::EMPTY, boxes: Vec::new(), stretches: 0 };
@@ -211,6 +216,8 @@ struct Part {
     divisions: u32,
     /// How many of the last divisions left nearly all facets in it.
     in_vain: u32,
+    /// So many facets in boxes of it may be looked at.
+    looks: u64,
 }
 
 impl Part {
@@ -222,22 +229,28 @@ impl Part {
                 facets[octant].push(facet);
             }
         }
+        let n_looks: u64 = facets.iter().map(|facets| facets.len() as u64).sum();
         let mut facets = facets.into_iter();
         std::array::from_fn(|octant| {
             let facets = facets.next().unwrap_or_default();
+            let share = facets.len() as u128 * u128::from(self.looks.saturating_sub(n_looks));
             let is_vain = 8 * facets.len() > 7 * self.facets.len();
             Self {
                 around: octant_of(&self.around, octant),
                 unknown: unknown.to_vec(),
                 divisions: self.divisions + 1,
                 in_vain: if is_vain { self.in_vain + 1 } else { 0 },
+                looks: (share / u128::from(n_looks.max(1))) as u64,
                 facets,
             }
         })
     }
 
     fn is_small(&self) -> bool {
-        self.facets.len() <= FEW || self.divisions == MOST_DIVISIONS || self.in_vain == MOST_IN_VAIN
+        // A facet meets four octants or so.
+        let is_enough = self.looks < 4 * self.facets.len() as u64;
+        let is_vain = self.divisions == MOST_DIVISIONS || self.in_vain == MOST_IN_VAIN;
+        self.facets.len() <= FEW || is_enough || is_vain
     }
 
     /// A point of it that is in line with nothing in particular.
