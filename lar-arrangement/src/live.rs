@@ -27,11 +27,15 @@ const FEW: usize = 8;
 const MOST_DIVISIONS: u32 = 16;
 /// How often, one in another, without fewer facets in the parts.
 const MOST_IN_VAIN: u32 = 2;
-/// For each pair of facets so many facets in boxes are looked at at most: no more work than to find what the two have in
-/// common.
-const LOOKS_A_PAIR: u64 = 64;
-/// So many are looked at for few pairs, and no more than so many for any number of them: a gigabyte of boxes.
+/// What a division may cost for each pair of facets, in facets looked at: a small part of the work of finding what two have
+/// in common.
+const LOOKS_A_PAIR: u64 = 24;
+/// For few pairs it may cost so much, and no more than so much for any number of them: a gigabyte of boxes.
 const LOOKS: [u64; 2] = [1 << 16, 1 << 27];
+/// A box costs as much as so many facets looked at.
+const LOOKS_A_BOX: u64 = 32;
+/// Steps through the boxes of two facets.
+const MOST_STEPS: usize = 256;
 /// Margin in grid steps for all that rounding does to a position, and more.
 const MARGIN: f64 = 1.0;
 /// Pairs of facets a chunk of work.
@@ -136,7 +140,7 @@ impl Live {
         let mut division = Division { soup, plates: &plates, solids, circuit, nodes, boxes, found, course };
         let facets = (0..plates.len() as u32).collect();
         let looks = (LOOKS_A_PAIR * pairs.len() as u64).clamp(LOOKS[0], LOOKS[1]);
-        division.divide(0, &Part { around: all, facets, unknown, divisions: 0, in_vain: 0, looks })?;
+        division.divide(0, &Part { around: all, facets, unknown, divisions: 0, in_vain: 0 }, looks)?;
         let Division { nodes, boxes, found, .. } = division;
         let (set_of, n_sets) = overlapping(soup, pairs, course)?.labels();
         let nowhere = || Set { around: Aabb::EMPTY, boxes: Vec::new(), stretches: 0 };
@@ -167,7 +171,11 @@ impl Live {
             hi: std::array::from_fn(|k| f.around.hi[k].min(g.around.hi[k]) + MARGIN),
         };
         let (mut a, mut b) = (f.boxes.as_slice(), g.boxes.as_slice());
-        while let (Some((x, after_x)), Some((y, after_y))) = (a.split_first(), b.split_first()) {
+        // A pair of which that is not known after some steps is kept.
+        for _ in 0..MOST_STEPS {
+            let (Some((x, after_x)), Some((y, after_y))) = (a.split_first(), b.split_first()) else {
+                return false;
+            };
             if x == y && common.meets(&self.boxes[*x as usize]) {
                 return true;
             }
@@ -178,7 +186,7 @@ impl Live {
                 b = after_y;
             }
         }
-        false
+        true
     }
 
     /// Whether a point, of rounded position, is in a dead box.
@@ -216,8 +224,6 @@ struct Part {
     divisions: u32,
     /// How many of the last divisions left nearly all facets in it.
     in_vain: u32,
-    /// So many facets in boxes of it may be looked at.
-    looks: u64,
 }
 
 impl Part {
@@ -229,28 +235,22 @@ impl Part {
                 facets[octant].push(facet);
             }
         }
-        let n_looks: u64 = facets.iter().map(|facets| facets.len() as u64).sum();
         let mut facets = facets.into_iter();
         std::array::from_fn(|octant| {
             let facets = facets.next().unwrap_or_default();
-            let share = facets.len() as u128 * u128::from(self.looks.saturating_sub(n_looks));
             let is_vain = 8 * facets.len() > 7 * self.facets.len();
             Self {
                 around: octant_of(&self.around, octant),
                 unknown: unknown.to_vec(),
                 divisions: self.divisions + 1,
                 in_vain: if is_vain { self.in_vain + 1 } else { 0 },
-                looks: (share / u128::from(n_looks.max(1))) as u64,
                 facets,
             }
         })
     }
 
     fn is_small(&self) -> bool {
-        // A facet meets four octants or so.
-        let is_enough = self.looks < 4 * self.facets.len() as u64;
-        let is_vain = self.divisions == MOST_DIVISIONS || self.in_vain == MOST_IN_VAIN;
-        self.facets.len() <= FEW || is_enough || is_vain
+        self.facets.len() <= FEW || self.divisions == MOST_DIVISIONS || self.in_vain == MOST_IN_VAIN
     }
 
     /// A point of it that is in line with nothing in particular.
@@ -284,11 +284,14 @@ struct Division<'a> {
 }
 
 impl Division<'_> {
-    fn divide(&mut self, node: usize, part: &Part) -> Result<(), Cancelled> {
+    /// Divides a part as long as that costs no more than so much, and returns what is left of it.
+    fn divide(&mut self, node: usize, part: &Part, mut looks: u64) -> Result<u64, Cancelled> {
         self.course.go_on()?;
         let (learnt, unknown) = self.learn(part);
         if self.circuit.value() == Value::Unknown {
-            if part.is_small() {
+            // A facet meets four octants or so.
+            let cost = 4 * part.facets.len() as u64 + 8 * LOOKS_A_BOX;
+            if part.is_small() || cost > looks {
                 let leaf = self.boxes.len() as u32;
                 self.nodes[node] = Node::Live;
                 self.boxes.push(part.around);
@@ -297,13 +300,20 @@ impl Division<'_> {
                 let first = self.nodes.len();
                 self.nodes[node] = Node::Divided(first as u32);
                 self.nodes.resize(first + 8, Node::Dead);
-                for (octant, part) in part.octants(self.plates, &unknown).iter().enumerate() {
-                    self.divide(first + octant, part)?;
+                looks -= cost;
+                let octants = part.octants(self.plates, &unknown);
+                let mut waiting: u64 = octants.iter().map(|part| part.facets.len() as u64).sum();
+                for (octant, part) in octants.iter().enumerate() {
+                    // By the facets; what one does not need is for those after it.
+                    let n = part.facets.len() as u64;
+                    let share = u128::from(looks) * u128::from(n) / u128::from(waiting.max(1));
+                    looks = looks - share as u64 + self.divide(first + octant, part, share as u64)?;
+                    waiting -= n;
                 }
             }
         }
         learnt.into_iter().for_each(|solid| self.circuit.set(solid, Value::Unknown));
-        Ok(())
+        Ok(looks)
     }
 
     /// Finds the numbers of solids that have no facet in a box: those that were found, and those still unknown.
