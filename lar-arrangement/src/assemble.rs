@@ -23,7 +23,7 @@ pub(crate) struct Shells<'a> {
 /// The final numbering, positions and matrices.
 pub(crate) fn assemble(
     surfaces: &[Surface],
-    mut soup: Soup,
+    soup: Soup,
     skeleton: Skeleton,
     mut dissolved: Dissolved,
     shells: &Shells,
@@ -38,12 +38,9 @@ pub(crate) fn assemble(
     });
     let Parents { parents, offsets: parent_offsets, crossed: crossed_ends } =
         Parents::new(&soup, &skeleton, &dissolved);
-    let coefficients = std::mem::take(&mut soup.coefficients);
     let walls = Walls::of_faces(cells_of_face.len(), |walls, face| {
-        let coefficient = |p: &Parent| i32::from(coefficients[p.solid as usize][p.face as usize]);
         let of_face = parents[parent_offsets[face] as usize..crossed_ends[face] as usize].iter();
-        let jumps = of_face.map(|p| (p.solid, coefficient(p) * i32::from(p.sign)));
-        walls.push_face(cells_of_face[face], jumps);
+        walls.push_face(cells_of_face[face], of_face.map(|p| (p.solid, soup.jump(p))));
     });
     let windings = Windings::new(shells.n_cells as usize, surfaces.len(), &walls);
     course.begin("complex", &mut stats)?;
@@ -89,7 +86,7 @@ pub(crate) fn assemble(
         windings,
         solids: surfaces
             .iter()
-            .zip(coefficients)
+            .zip(soup.coefficients)
             .map(|(s, coefficients)| SolidInfo { name: s.name.clone(), coefficients })
             .collect(),
         vertices,

@@ -134,7 +134,8 @@ fn above(x: f64) -> f32 {
 }
 
 /// The numbers of the bits that are set, ascending.
-pub(crate) fn bits_of(mut bits: u8) -> impl Iterator<Item = usize> {
+pub(crate) fn bits_of(bits: impl Into<u64>) -> impl Iterator<Item = usize> {
+    let mut bits = bits.into();
     std::iter::from_fn(move || {
         let next = (bits != 0).then(|| bits.trailing_zeros() as usize);
         bits &= bits.wrapping_sub(1);

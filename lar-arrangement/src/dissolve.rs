@@ -13,7 +13,7 @@ use crate::fragment::FacetParent;
 use crate::kernel::VertexDef;
 use crate::merge::{self, Faces, Merged, Removal};
 use crate::skeleton::Skeleton;
-use crate::soup::{Parent, Soup};
+use crate::soup::Soup;
 use crate::tiles::Merge;
 use crate::union_find::UnionFind;
 use lar_core::Cells;
@@ -118,9 +118,7 @@ fn is_dissolvable(edge: usize, skeleton: &Skeleton, rings: &Cells, soup: &Soup, 
 pub(crate) fn crossed(face: u32, skeleton: &Skeleton, soup: &Soup) -> Vec<(u32, i32)> {
     let of_facet = |p: &FacetParent| {
         let turn = if p.same_way { 1 } else { -1 };
-        let coefficient = |p: &Parent| i32::from(soup.coefficients[p.solid as usize][p.face as usize]);
-        let parents = soup.parents(p.facet).iter();
-        parents.map(move |p| (p.solid, turn * i32::from(p.sign) * coefficient(p))).collect::<Vec<_>>()
+        soup.parents(p.facet).iter().map(move |p| (p.solid, turn * soup.jump(p)))
     };
     let mut all: Vec<(u32, i32)> = skeleton.face_parents(face).iter().flat_map(of_facet).collect();
     all.sort_unstable();

@@ -18,7 +18,7 @@ use crate::circuit::{Circuit, Value};
 use crate::coplanar;
 use crate::parallel;
 use crate::progress::{Cancelled, Course};
-use crate::soup::{Parent, Soup};
+use crate::soup::Soup;
 use crate::union_find::UnionFind;
 
 /// Boxes that no more facets meet are not divided.
@@ -379,8 +379,6 @@ impl<'a> Solids<'a> {
 
     /// Whether a point is inside of a solid, when that is beyond doubt.
     fn is_inside(&self, soup: &Soup, solid: u32, at: [f64; 3]) -> Option<bool> {
-        let beam =
-            Aabb { lo: [f64::NEG_INFINITY, at[1] - MARGIN, at[2] - MARGIN], hi: at.map(|x| x + MARGIN) };
         let mut winding = Some(0);
         if self.around[solid as usize].meets(&Aabb { lo: at, hi: at }) {
             let facets = &self.facets[solid as usize];
@@ -392,7 +390,8 @@ impl<'a> Solids<'a> {
             if facets.len() <= MANY_FACETS {
                 facets.iter().copied().for_each(pass);
             } else {
-                self.tree.query(&beam, |f| {
+                let lo = [f64::NEG_INFINITY, at[1] - MARGIN, at[2] - MARGIN];
+                self.tree.query(&Aabb { lo, hi: at.map(|x| x + MARGIN) }, |f| {
                     if soup.parents(f).iter().any(|p| p.solid == solid) {
                         pass(f);
                     }
@@ -439,9 +438,8 @@ fn passed(soup: &Soup, plate: &Plate, facet: u32, solid: u32, at: [f64; 3]) -> O
     if (sum > 0.0) != (normal[0] > 0.0) {
         return Some(0);
     }
-    let coefficient =
-        |p: &Parent| i32::from(p.sign) * i32::from(soup.coefficients[p.solid as usize][p.face as usize]);
-    let jump: i32 = soup.parents(facet).iter().filter(|p| p.solid == solid).map(coefficient).sum();
+    let of_solid = soup.parents(facet).iter().filter(|p| p.solid == solid);
+    let jump: i32 = of_solid.map(|p| soup.jump(p)).sum();
     // The ray comes out in front where the normal points to −x.
     Some(if normal[0] < 0.0 { jump } else { -jump })
 }

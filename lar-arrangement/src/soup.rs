@@ -206,29 +206,32 @@ impl Soup {
         edges.filter(|([low, _], _)| is_wanted[*low as usize]).collect()
     }
 
+    /// What crossing a face, from its front to its back, adds to the winding number of one of its parents' solid.
+    pub(crate) fn jump(&self, parent: &Parent) -> i32 {
+        i32::from(parent.sign) * i32::from(self.coefficients[parent.solid as usize][parent.face as usize])
+    }
+
     /// Whether the facets of each of some solids, by their coefficients in its boundary, are a cycle: edge by edge. A
     /// surface whose edges only overlap may be closed all the same. O(n log m) for m edges between several solids.
     pub(crate) fn are_cycles(&self, solids: &[usize]) -> bool {
-        let weight =
-            |p: &Parent| i64::from(p.sign) * i64::from(self.coefficients[p.solid as usize][p.face as usize]);
         let balanced = |&[along, against]: &[u32; 2]| {
             let sole = |facet: u32| match self.parents(facet) {
-                [parent] => Some((parent.solid, weight(parent))),
+                [parent] => Some((parent.solid, self.jump(parent))),
                 _ => None,
             };
             along < MANY && against < MANY && sole(along).is_some_and(|a| Some(a) == sole(against))
         };
         let is_open: Vec<bool> = self.facets_of_edge.iter().map(|users| !balanced(users)).collect();
-        let mut uses: Vec<(u32, u32, i64)> = Vec::new();
+        let mut uses: Vec<(u32, u32, i32)> = Vec::new();
         for (codes, facet) in self.facet_edges.iter().zip(0..) {
             for &code in codes.iter().filter(|&code| is_open[(code / 2) as usize]) {
                 let way = if code % 2 == 0 { 1 } else { -1 };
-                uses.extend(self.parents(facet).iter().map(|p| (code / 2, p.solid, way * weight(p))));
+                uses.extend(self.parents(facet).iter().map(|p| (code / 2, p.solid, way * self.jump(p))));
             }
         }
         uses.retain(|&(_, solid, _)| solids.binary_search(&(solid as usize)).is_ok());
         uses.sort_unstable();
-        uses.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).all(|same| same.iter().map(|u| u.2).sum::<i64>() == 0)
+        uses.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).all(|same| same.iter().map(|u| u.2).sum::<i32>() == 0)
     }
 
     /// A number that is equal for facets of one polygon that is meant to be planar.

@@ -14,12 +14,14 @@
 
 use crate::boolean::FillRule;
 use crate::circuit::{Circuit, Value};
+use crate::counting::sorted_by_place;
 use crate::dissolve::crossed;
 use crate::live::Live;
 use crate::progress::{Cancelled, Course};
 use crate::rays::Rays;
 use crate::soup::Soup;
 use crate::union_find::UnionFind;
+use crate::wrap;
 
 /// For each side of a face whether it looks at the result; for a face that is not of the surface, `false` on both.
 pub(crate) fn sides_of_result(
@@ -81,16 +83,10 @@ impl Patches {
             }
         }
         let (of_side, n_sides) = sides.labels();
-        // The two sides of a patch are joined by any of its faces.
-        let mut patches = UnionFind::new(n_sides as usize);
-        for face in of_side.as_chunks::<2>().0 {
-            patches.union(face[0], face[1]);
-        }
-        let (patch_of_side, n) = patches.labels();
+        let (patch_of_side, n) = wrap::components(&of_side, n_sides);
         let of_face: Vec<u32> = of_side.iter().step_by(2).map(|&side| patch_of_side[side as usize]).collect();
         let all: Vec<u32> = (0..n_faces as u32).collect();
-        let (offsets, faces) =
-            crate::counting::sorted_by_place(n as usize, &all, |&f| of_face[f as usize] as usize);
+        let (offsets, faces) = sorted_by_place(n as usize, &all, |&f| of_face[f as usize] as usize);
         Self { n, of_face, of_side, offsets, faces }
     }
 
@@ -140,10 +136,7 @@ impl Search<'_> {
             let ends = |&code: &u32| soup.directed(code).map(|p| soup.geometry.point_vertex(p));
             if rays.is_hit(facet, soup.facet_edges[facet as usize].iter().map(ends), &start) {
                 let sign = if rays.leaves_in_front(facet) { 1 } else { -1 };
-                for p in soup.parents(facet) {
-                    let coefficient = soup.coefficients[p.solid as usize][p.face as usize];
-                    self.here.change(p.solid, sign * i32::from(p.sign) * i32::from(coefficient));
-                }
+                soup.parents(facet).iter().for_each(|p| self.here.change(p.solid, sign * soup.jump(p)));
             }
         });
         let sector = rays.sector(edge);

@@ -72,26 +72,18 @@ impl Walls {
                 odd: same.iter().fold(false, |odd, j| odd ^ j.odd),
             }));
         }
-        if self.is_known(cells, &self.jumps[begin..]) {
+        self.close(cells, begin);
+    }
+
+    /// Makes a wall of the jumps from `begin` on, unless one of the last is the same.
+    fn close(&mut self, cells: [u32; 2], begin: usize) {
+        let (n, jumps) = (self.cells.len(), &self.jumps[begin..]);
+        let is_same = |wall: usize| self.cells[wall] == cells && self.of(wall as u32) == jumps;
+        if (n.saturating_sub(RECENT)..n).rev().any(is_same) {
             self.jumps.truncate(begin);
         } else {
             self.cells.push(cells);
             self.offsets.push(self.jumps.len() as u32);
-        }
-    }
-
-    /// Whether one of the last walls is the same.
-    fn is_known(&self, cells: [u32; 2], jumps: &[Jump]) -> bool {
-        let n = self.cells.len();
-        (n.saturating_sub(RECENT)..n)
-            .rev()
-            .any(|wall| self.cells[wall] == cells && self.of(wall as u32) == jumps)
-    }
-
-    /// Adds faces that come after these.
-    fn append(&mut self, others: &Self) {
-        for (cells, jumps) in others.iter() {
-            self.push(cells, jumps);
         }
     }
 
@@ -104,16 +96,12 @@ impl Walls {
             walls
         });
         let mut all = Self::new();
-        parts.iter().for_each(|part| all.append(part));
-        all
-    }
-
-    fn push(&mut self, cells: [u32; 2], jumps: &[Jump]) {
-        if !self.is_known(cells, jumps) {
-            self.jumps.extend_from_slice(jumps);
-            self.cells.push(cells);
-            self.offsets.push(self.jumps.len() as u32);
+        for (cells, jumps) in parts.iter().flat_map(Self::iter) {
+            let begin = all.jumps.len();
+            all.jumps.extend_from_slice(jumps);
+            all.close(cells, begin);
         }
+        all
     }
 
     fn of(&self, wall: u32) -> &[Jump] {

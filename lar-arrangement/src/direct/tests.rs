@@ -218,6 +218,26 @@ fn heaps_of_cubes() {
     }
 }
 
+/// Where planes cross everywhere nothing much is dead: the division ends before boxes are small, and facets meet more
+/// boxes than are compared.
+#[test]
+fn crossing_walls() {
+    let cube = cuboid_grid(&[1, 1, 1]);
+    let wall = |i: u32, is_along: bool| {
+        let at = f64::from(i) + if is_along { 0.25 } else { 0.3 };
+        let (low, size) = match is_along {
+            true => ([at, 0.0, 0.0], [0.25, 14.0, 10.0]),
+            false => ([0.0, at, 3.0], [14.0, 0.3, 10.0]),
+        };
+        let map = t(&low).compose(&s(&size)).expect("of space");
+        cube.to_surface(format!("{i} {is_along}")).expect("a cube").transformed(&map).expect("of space")
+    };
+    let walls: Vec<Surface> = (0..14).flat_map(|i| [wall(i, true), wall(i, false)]).collect();
+    for operator in [" | ", " ^ "] {
+        check(Arranger::new(), &walls, &operand_names(28).join(operator), FillRule::NonZero);
+    }
+}
+
 #[test]
 fn shells_and_spheres() {
     let sphere = |radius: f64, at: f64| {

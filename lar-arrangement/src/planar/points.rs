@@ -1,5 +1,6 @@
 //! Planar stage 1a: equal grid points are one.
 
+use crate::boxes::bits_of;
 use crate::counting::{offsets, sorted_by_place};
 use crate::grid_points::hash;
 use crate::parallel;
@@ -60,14 +61,7 @@ impl Marks {
     /// The marked numbers in a range that begins and, unless it is the last, ends with a word of bits.
     fn of(&self, range: Range<usize>) -> impl Iterator<Item = usize> + '_ {
         let words = range.start / 64..range.end.div_ceil(64);
-        words.flat_map(|w| {
-            let mut bits = self.bits[w];
-            std::iter::from_fn(move || {
-                let next = (bits != 0).then(|| 64 * w + bits.trailing_zeros() as usize);
-                bits &= bits.wrapping_sub(1);
-                next
-            })
-        })
+        words.flat_map(|w| bits_of(self.bits[w]).map(move |bit| 64 * w + bit))
     }
 
     /// Which of the marked numbers are in a chunk.

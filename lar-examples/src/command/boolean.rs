@@ -8,7 +8,7 @@ use super::result::{Counts, Surfaces};
 use crate::CommandError;
 use crate::bar::Bar;
 use crate::output::{check_directory, check_distinct, check_file, write_directory};
-use lar_arrangement::{Arrangement, Detail, Evaluator, Expression, FillRule};
+use lar_arrangement::{Arrangement, Detail, Evaluator, Expression, FillRule, Stats};
 use serde::Serialize;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -112,7 +112,7 @@ struct Report {
     counts: Counts,
     expression: String,
     #[serde(flatten)]
-    common: Common,
+    common: Common<Operand>,
 }
 
 /// The JSON of several.
@@ -120,7 +120,7 @@ struct Report {
 struct BatchReport {
     results: Vec<Named>,
     #[serde(flatten)]
-    common: Common,
+    common: Common<Operand>,
 }
 
 #[derive(Debug, Serialize)]
@@ -132,10 +132,11 @@ struct Named {
     counts: Counts,
 }
 
+/// What every report says, with what is known of the inputs.
 #[derive(Debug, Serialize)]
-struct Common {
+struct Common<I> {
     fill: Fill,
-    inputs: Vec<Operand>,
+    inputs: Vec<I>,
     grid_step: f64,
     moved: Moves,
     exact_fallbacks: u64,
@@ -146,8 +147,10 @@ struct Common {
 #[derive(Debug, Serialize)]
 struct Seconds {
     read: f64,
-    arrange: f64,
-    /// Choice of the cells, and their surfaces as complexes.
+    /// Of an arrangement with all cells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    arrange: Option<f64>,
+    /// Surfaces as complexes; of all cells, after their choice.
     boolean: f64,
     triangulate: f64,
     /// The whole operation, without reading and writing.
@@ -188,7 +191,9 @@ impl Boolean {
         }
         let (arrangement, time) = arrange(&operands.surfaces, self.threads, self.coplanarity)?;
         let mut results = self.results(&tasks, &arrangement, &operands)?;
-        let common = self.common(&arrangement, &operands, &results, (time, start));
+        let surfaces = results.iter().map(|(_, surfaces)| surfaces);
+        let inputs = Operand::all(&arrangement, &operands);
+        let common = self.common(arrangement.stats(), inputs, surfaces, (operands.read, Some(time), start));
         if is_batch {
             self.write_batch(&tasks, results, common, out)
         } else {
@@ -240,30 +245,30 @@ impl Boolean {
         tasks.iter().map(result).collect()
     }
 
-    fn common(
+    fn common<'a, I>(
         &self,
-        arrangement: &Arrangement,
-        operands: &Operands,
-        results: &[(Counts, Surfaces)],
-        (arrange, start): (Duration, Instant),
-    ) -> Common {
-        let sum = |of: fn(&Surfaces) -> Duration| results.iter().map(|(_, s)| of(s)).sum::<Duration>();
-        let (boolean, triangulate) = (sum(|s| s.boolean), sum(|s| s.triangulate));
+        stats: &Stats,
+        inputs: Vec<I>,
+        surfaces: impl Iterator<Item = &'a Surfaces> + Clone,
+        (read, arrange, start): (Duration, Option<Duration>, Instant),
+    ) -> Common<I> {
+        let boolean: Duration = surfaces.clone().map(|s| s.boolean).sum();
+        let triangulate: Duration = surfaces.map(|s| s.triangulate).sum();
         Common {
             fill: self.fill,
-            inputs: Operand::all(arrangement, operands),
-            grid_step: arrangement.stats().grid_step,
-            moved: Moves::of(arrangement.stats()),
-            exact_fallbacks: arrangement.stats().exact_fallbacks,
+            inputs,
+            grid_step: stats.grid_step,
+            moved: Moves::of(stats),
+            exact_fallbacks: stats.exact_fallbacks,
             threads: self.threads.count().get(),
             seconds: Seconds {
-                read: operands.read.as_secs_f64(),
-                arrange: arrange.as_secs_f64(),
+                read: read.as_secs_f64(),
+                arrange: arrange.map(|time| time.as_secs_f64()),
                 boolean: boolean.as_secs_f64(),
                 triangulate: triangulate.as_secs_f64(),
-                operation: (arrange + boolean + triangulate).as_secs_f64(),
+                operation: (arrange.unwrap_or_default() + boolean + triangulate).as_secs_f64(),
                 total: start.elapsed().as_secs_f64(),
-                stages: Stages::of(arrangement.stats()),
+                stages: Stages::of(stats),
             },
         }
     }
@@ -272,7 +277,7 @@ impl Boolean {
         &self,
         text: &str,
         (counts, surfaces): (Counts, Surfaces),
-        common: Common,
+        common: Common<Operand>,
         out: &mut dyn Write,
     ) -> Result<(), CommandError> {
         surfaces.write(&self.output)?;
@@ -287,7 +292,7 @@ impl Boolean {
         &self,
         tasks: &[Task<'_>],
         results: Vec<(Counts, Surfaces)>,
-        common: Common,
+        common: Common<Operand>,
         out: &mut dyn Write,
     ) -> Result<(), CommandError> {
         let file = |task: &Task<'_>, dir: &Path| dir.join(format!("{}.{}", task.name, self.extension()));

@@ -1,10 +1,10 @@
 //! `lar boolean --surface-only`: the surface of one expression, without the cells of the arrangement.
 
-use super::{Boolean, Fill, Task};
+use super::{Boolean, Common, Task};
 use crate::CommandError;
 use crate::bar::Bar;
 use crate::command::input::Operands;
-use crate::command::report::{Moves, Rounding, Stages, arranger};
+use crate::command::report::{Rounding, arranger};
 use crate::command::result::{SurfaceCounts, Surfaces};
 use lar_arrangement::{BooleanError, Detail};
 use serde::Serialize;
@@ -18,13 +18,8 @@ struct Report {
     counts: SurfaceCounts,
     rounding: Rounding,
     expression: String,
-    fill: Fill,
-    inputs: Vec<Input>,
-    grid_step: f64,
-    moved: Moves,
-    exact_fallbacks: u64,
-    threads: usize,
-    seconds: Seconds,
+    #[serde(flatten)]
+    common: Common<Input>,
 }
 
 #[derive(Debug, Serialize)]
@@ -32,19 +27,6 @@ struct Input {
     name: String,
     file: String,
     faces: usize,
-}
-
-#[derive(Debug, Serialize)]
-struct Seconds {
-    read: f64,
-    /// The surface as a complex.
-    boolean: f64,
-    triangulate: f64,
-    /// The whole operation, without reading and writing.
-    operation: f64,
-    /// Until the report is complete.
-    total: f64,
-    stages: Stages,
 }
 
 impl Boolean {
@@ -74,30 +56,17 @@ impl Boolean {
             file: file.display().to_string(),
             faces: surface.n_faces(),
         };
+        let inputs = operands.surfaces.iter().zip(&operands.files).map(input).collect();
         let report = Report {
             counts: SurfaceCounts::alone(&surfaces, is_bounded),
             rounding: surfaces.rounding(iter::empty()),
             expression: task.text.to_owned(),
-            fill: self.fill,
-            inputs: operands.surfaces.iter().zip(&operands.files).map(input).collect(),
-            grid_step: stats.grid_step,
-            moved: Moves::of(&stats),
-            exact_fallbacks: stats.exact_fallbacks,
-            threads: self.threads.count().get(),
-            seconds: Seconds {
-                read: operands.read.as_secs_f64(),
-                boolean: surfaces.boolean.as_secs_f64(),
-                triangulate: surfaces.triangulate.as_secs_f64(),
-                operation: (surfaces.boolean + surfaces.triangulate).as_secs_f64(),
-                total: start.elapsed().as_secs_f64(),
-                stages: Stages::of(&stats),
-            },
+            common: self.common(&stats, inputs, iter::once(&surfaces), (operands.read, None, start)),
         };
         self.json.deliver("boolean-surface", &report, out, |out| {
             report.counts.print(task.text, out)?;
             report.rounding.line().map_or(Ok(()), |line| writeln!(out, "{line}"))?;
-            let Seconds { read, operation, .. } = report.seconds;
-            Ok(writeln!(out, "{read:.3} s to read, {operation:.3} s for the operation")?)
+            report.common.seconds.print(out)
         })
     }
 }
