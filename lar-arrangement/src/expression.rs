@@ -94,7 +94,7 @@ pub enum ExpressionError {
     },
 }
 
-/// Names for n solids in the order of a spreadsheet's columns: A, B, …, Z, AA, AB, …
+/// Names for n solids in the order of a spreadsheet's columns: A, B, …, Z, AA, AB, … O(n log n).
 ///
 /// ```
 /// let names = lar_arrangement::operand_names(28);

@@ -73,7 +73,7 @@ impl Affine {
         Self { matrix: DMatrix::identity(d + 1, d + 1) }
     }
 
-    /// An affine map from its homogeneous matrix.
+    /// An affine map from its homogeneous matrix. O(d).
     ///
     /// # Errors
     /// When the matrix is not square or its last row is not (0 … 0 1).
@@ -117,7 +117,7 @@ impl Affine {
     }
 
     /// Checks that the map can place a solid: all entries finite, linear part not singular (its columns scaled
-    /// to unit size have a determinant that is not zero).
+    /// to unit size have a determinant that is not zero). O(d³).
     ///
     /// # Errors
     /// Says which of the two fails.

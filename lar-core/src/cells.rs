@@ -32,7 +32,7 @@ impl Cells {
         Self { offsets, indices: Vec::with_capacity(indices) }
     }
 
-    /// Cells from the two flat arrays: cell `i` is `indices[offsets[i]..offsets[i + 1]]`.
+    /// Cells from the two flat arrays: cell `i` is `indices[offsets[i]..offsets[i + 1]]`. O(cells).
     ///
     /// # Panics
     /// When `offsets` does not rise from 0 to `indices.len()`.

@@ -62,7 +62,7 @@ impl ChainComplex {
     }
 
     /// The Betti numbers over the field of `prime` elements. Where they differ from
-    /// [`betti_numbers`](Self::betti_numbers), the integral homology has torsion of that order.
+    /// [`betti_numbers`](Self::betti_numbers), the integral homology has torsion of that order. The same cost.
     ///
     /// # Errors
     /// As [`betti_numbers`](Self::betti_numbers), and when `prime` is not prime.

@@ -60,6 +60,7 @@ impl Triangulator {
     }
 
     /// Appends the triangles of a face, as [`triangulate_face`] gives them, to `out`.
+    /// O(n log n) for n corners, as a rule.
     ///
     /// # Errors
     /// As [`triangulate_face`]; `out` is unchanged then.

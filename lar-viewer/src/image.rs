@@ -62,6 +62,7 @@ impl Image {
     }
 
     /// Puts another picture over this one, its upper left corner at column `x` of row `y`; what reaches beyond is cut.
+    /// O(pixels in front).
     ///
     pub fn overlay(&mut self, front: &Self, x: u32, y: u32) {
         for row in 0..front.height.min(self.height.saturating_sub(y)) {
@@ -75,7 +76,7 @@ impl Image {
         }
     }
 
-    /// The picture as a PNG file's bytes.
+    /// The picture as a PNG file's bytes. O(pixels).
     ///
     /// # Errors
     /// `Encode`.

@@ -20,7 +20,7 @@ pub struct Polygons {
 }
 
 impl Polygons {
-    /// Sum of the areas.
+    /// Sum of the areas. O(points of the loops).
     #[must_use]
     pub fn area(&self) -> f64 {
         let at = |v: u32| self.points.point(v as usize);

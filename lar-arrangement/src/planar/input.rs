@@ -61,7 +61,7 @@ impl Drawing {
         self.segments.push(ends);
     }
 
-    /// Adds a region by its loops, each a cyclic list of points; returns its number.
+    /// Adds a region by its loops, each a cyclic list of points; returns its number. O(points of the loops).
     pub fn push_region<'a>(
         &mut self,
         name: impl Into<String>,

@@ -22,7 +22,7 @@ const SIGMA: &str = "σ";
 
 impl PlanarArranger<'_> {
     /// The arrangement of the part of a drawing inside a polygon σ, given by its loops (holes included, in any
-    /// direction: its inside is found by parity). The outline of σ is part of the result.
+    /// direction: its inside is found by parity). The outline of σ is part of the result. O(the arrangement of both).
     ///
     /// σ is the last region of the result, named "σ"; the faces inside it are those with an odd winding number for
     /// it. The exterior and the holes of σ are faces too, without anything inside. The other regions are cut to σ:

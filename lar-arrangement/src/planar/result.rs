@@ -109,7 +109,7 @@ impl PlanarArrangement {
         self.loops_of(face).map(|cycle| cycle.iter().map(|&h| ends[h as usize]).collect())
     }
 
-    /// Signed area of a face; that of the exterior is minus the sum of the others.
+    /// Signed area of a face; that of the exterior is minus the sum of the others. O(edges of the face).
     #[must_use]
     pub fn area(&self, face: FaceId) -> f64 {
         let points = self.complex.points();

@@ -35,7 +35,7 @@ impl Default for Rod {
 }
 
 impl Rod {
-    /// The 3-cell with all its faces: lower vertices first, then the upper ones.
+    /// The 3-cell with all its faces: lower vertices first, then the upper ones. O(size of the model).
     ///
     /// # Errors
     /// When a parameter is out of range; a full turn needs three divisions, an arc two.
@@ -90,7 +90,7 @@ impl Default for Pizza {
 
 impl Pizza {
     /// The 3-cell with all its faces: rim vertices from top to bottom, around the axis at each height, then
-    /// for a slice the upper and the lower tip.
+    /// for a slice the upper and the lower tip. O(size of the model).
     ///
     /// # Errors
     /// When a parameter is out of range; a full turn needs three divisions.

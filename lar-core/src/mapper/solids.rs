@@ -66,7 +66,7 @@ impl Default for Ball {
 }
 
 impl Ball {
-    /// The cuboids, with all skeletons.
+    /// The cuboids, with all skeletons. O(size of the model).
     ///
     /// # Errors
     /// When a parameter is out of range; from pole to pole there must be two divisions, around three.
@@ -111,7 +111,7 @@ impl Default for HollowBall {
 }
 
 impl HollowBall {
-    /// The cuboids, with all skeletons.
+    /// The cuboids, with all skeletons. O(size of the model).
     ///
     /// # Errors
     /// When a parameter is out of range; from pole to pole there must be two divisions, around three.
@@ -155,7 +155,7 @@ impl Default for HollowCylinder {
 }
 
 impl HollowCylinder {
-    /// The cuboids, with all skeletons.
+    /// The cuboids, with all skeletons. O(size of the model).
     ///
     /// # Errors
     /// When a parameter is out of range; a full turn needs three divisions.
@@ -206,7 +206,7 @@ impl Default for Torus {
 }
 
 impl Torus {
-    /// The cuboids, with all skeletons.
+    /// The cuboids, with all skeletons. O(size of the model).
     ///
     /// # Errors
     /// When a parameter is out of range; full turns need three divisions.

@@ -52,7 +52,7 @@ impl SvgWriter {
     }
 
     /// Adds a path of runs, each closed or not. A run of one point is a dot as wide as the stroke; empty ones are
-    /// left out, and so is a path without runs.
+    /// left out, and so is a path without runs. O(points).
     pub fn path<R: AsRef<[[f64; 2]]>>(
         &mut self,
         style: &SvgStyle<'_>,

@@ -20,7 +20,7 @@ impl Camera {
 
     /// The same direction of sight, from the nearest place that shows all points in a picture of this aspect
     /// (width / height), with a small margin; the target lies midway in depth. Points that are all equal are shown
-    /// at unit size; without points the camera stays.
+    /// at unit size; without points the camera stays. O(points).
     ///
     /// Exact in one pass. With camera coordinates x, y (right, up) and z (back), and t the tangent of half the
     /// opening angle, the eye (ex, ez) sees x when |x − ex| ≤ t (ez − z). So ez + ex/t ≥ A = max(z + x/t) and

@@ -54,6 +54,7 @@ impl CellData {
     }
 
     /// The cells themselves and all cells of lower dimension in their boundaries, per dimension, in rising order.
+    /// O(n log n) for n cells in it.
     #[must_use]
     pub fn closure(&self, cells: impl IntoIterator<Item = CellRef>) -> Vec<Vec<u32>> {
         let mut found: Vec<Vec<u32>> = vec![Vec::new(); usize::from(self.dim()) + 1];
@@ -84,6 +85,7 @@ impl CellData {
     }
 
     /// The units that have a cell in their boundaries, or the cell itself when it is one.
+    /// O(n log n) for n cells above it.
     #[must_use]
     pub fn units_of(&self, cell: CellRef) -> Vec<CellRef> {
         let mut found = Vec::new();

@@ -81,6 +81,7 @@ impl CellData {
     }
 
     /// With triangles of the faces over the vertices of the complex: face f has `triangles[offsets[f]..offsets[f + 1]]`.
+    /// O(triangles).
     ///
     /// # Errors
     /// `PointOutOfRange` when a triangle names a vertex that does not exist.

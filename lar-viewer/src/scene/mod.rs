@@ -109,7 +109,7 @@ impl Scene {
         Ok(id)
     }
 
-    /// Adds a drawable.
+    /// Adds a drawable. O(size of the drawable).
     ///
     /// # Errors
     /// `Coordinate`, `Attribute`, `PointOutOfRange`, `Dimension`, `ElementCells` or `GroupOutOfRange`, each with the

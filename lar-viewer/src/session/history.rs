@@ -68,7 +68,7 @@ impl<T: PartialEq> History<T> {
 
 impl Session {
     /// Remembers what is visible now as a step that can be undone, if it has changed: to be called when a slider of clip
-    /// plane or opacity has come to rest. Commands do it by themselves.
+    /// plane or opacity has come to rest. Commands do it by themselves. O(cells hidden).
     pub fn settle(&mut self) {
         let now = Shown {
             visibility: self.visibility.clone(),

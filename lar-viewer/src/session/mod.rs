@@ -98,7 +98,7 @@ pub struct Session {
 
 impl Session {
     /// Shows the cells of the highest dimension that a solid contains, or all of them where no solid is known, with their
-    /// edges.
+    /// edges. O(cells).
     #[must_use]
     pub fn new(data: CellData) -> Self {
         let mut session = Self {
@@ -131,7 +131,7 @@ impl Session {
     }
 
     /// The same settings for another complex: what a reload keeps. Cells that are gone are no longer selected, and
-    /// nothing is hidden, as the cells are numbered anew.
+    /// nothing is hidden, as the cells are numbered anew. O(cells).
     #[must_use]
     pub fn with_data(&self, data: CellData) -> Self {
         let mut next = Self::new(data);
@@ -228,7 +228,7 @@ impl Session {
         self.explode.pieces(self.data.dim()).max(hidden)
     }
 
-    /// What the drawables are made from: while it stays equal, only looks change.
+    /// What the drawables are made from: while it stays equal, only looks change. O(cells hidden or highlighted).
     #[must_use]
     pub fn shape(&self) -> Shape {
         let faces_alone = self.selected.filter(|c| c.dim < self.data.dim());

@@ -18,7 +18,7 @@ pub struct Answers {
 }
 
 impl Answers {
-    /// The steps of gift wrapping one cell, written down.
+    /// The steps of gift wrapping one cell, written down. O(faces in all chains).
     #[must_use]
     pub fn recorded(steps: &[WrapStep]) -> Wrapping {
         let mut shells = vec![Vec::new()];
@@ -36,7 +36,7 @@ impl Answers {
     }
 
     /// The cells of the highest dimension where an expression over the solids holds: `holds` is given, for each cell,
-    /// which solids it is inside of.
+    /// which solids it is inside of. O(cells · length of the expression).
     ///
     /// # Errors
     /// Why one of the operands is none, in words.
@@ -57,7 +57,7 @@ impl Answers {
         Chain::new(usize::from(data.dim()), n_cells, inside.map(|cell| (cell, 1))).map_err(|e| e.to_string())
     }
 
-    /// The steps of gift wrapping a cell of the highest dimension.
+    /// The steps of gift wrapping a cell of the highest dimension. O(faces in all chains).
     ///
     /// # Errors
     /// Why there are none, in words.

@@ -10,6 +10,7 @@ pub const NUMBER_COLORS: [Rgb; 4] =
 /// Adds numbers of cells as labels that face the camera: for each its cell, whose index is written whatever part of a
 /// complex is shown, where it stands, and the group that it moves with. They are drawn over everything when `on_top`, else
 /// hidden by what lies before them. Cells of a group should come one after the other: each run of them is one drawable.
+/// O(cells).
 ///
 /// ```
 /// use lar_viewer::{CellRef, Scene, TextStyle, push_numbers};
