@@ -32,6 +32,39 @@ fn each_feature_has_its_test() {
     assert_eq!(n, 27);
 }
 
+/// The cells of a row of a table.
+fn cells(row: &str) -> Vec<&str> {
+    row.trim_matches('|').split('|').map(str::trim).collect()
+}
+
+/// How many of the eleven programs have a feature is what the table of all of them says, and nothing is left open there.
+#[test]
+fn programs_are_counted() {
+    let text = gallery();
+    let rows: Vec<Vec<&str>> = text.lines().filter(|line| line.starts_with('|')).map(cells).collect();
+    let mut n = 0;
+    for row in rows
+        .iter()
+        .filter(|row| row.len() == 13 && row[1].trim_matches([':', '-']) != "" && row[0] != "feature")
+    {
+        let programs = &row[1..12];
+        assert!(
+            programs.iter().all(|p| ["yes", "no", "partly"].iter().any(|word| p.starts_with(word))),
+            "{row:?}"
+        );
+        assert_eq!(row[12], "yes", "{row:?}");
+        let count = |word: &str| programs.iter().filter(|p| p.starts_with(word)).count();
+        let said = match count("partly") {
+            0 => count("yes").to_string(),
+            some => format!("{} + {some}", count("yes")),
+        };
+        let found = rows.iter().find(|r| r.len() == 4 && r[0] == row[0]);
+        assert_eq!(found.map(|r| r[1]), Some(said.as_str()), "{}", row[0]);
+        n += 1;
+    }
+    assert_eq!(n, 14);
+}
+
 /// The commands of the first table, and the pictures beside them.
 fn commands(text: &str) -> Vec<&str> {
     text.split('`').filter(|code| code.starts_with("lar render ")).collect()

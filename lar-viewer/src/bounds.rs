@@ -27,8 +27,8 @@ impl Bounds {
     #[must_use]
     pub fn union(self, other: Self) -> Self {
         Self {
-            min: std::array::from_fn(|k| self.min[k].min(other.min[k])),
-            max: std::array::from_fn(|k| self.max[k].max(other.max[k])),
+            min: DVec3::from(self.min).min(other.min.into()).to_array(),
+            max: DVec3::from(self.max).max(other.max.into()).to_array(),
         }
     }
 

@@ -51,6 +51,7 @@ pub use color_bar::ColorBar;
 pub use color_map::ColorMap;
 pub use drawing::{InkArea, InkLine, LineDrawing};
 pub use error::ViewerError;
+pub use gpu::traffic::{Traffic, Upload};
 pub use image::Image;
 pub use offscreen::{OffscreenRenderer, Prepared};
 pub use orientation::{Orientation, StandardView};

@@ -3,7 +3,7 @@
 use crate::gpu::context::Context;
 use crate::gpu::renderer::Renderer;
 use crate::gpu::scene::SceneBuffers;
-use crate::{Appearance, Hit, Image, Scene, View, ViewerError};
+use crate::{Appearance, Hit, Image, Scene, Traffic, View, ViewerError};
 
 /// Draws scenes into pictures, without a display. The same scene and view give the same bytes on one machine.
 ///
@@ -144,6 +144,12 @@ impl Prepared<'_> {
     pub fn render(&mut self, view: &View, width: u32, height: u32) -> Result<Image, ViewerError> {
         self.renderer.draw(&[&self.buffers], view, width, height)?;
         self.renderer.read_picture()
+    }
+
+    /// What its renderer has handed to the graphics card since it was made.
+    #[must_use]
+    pub fn traffic(&self) -> Traffic {
+        self.renderer.context.traffic()
     }
 
     /// Makes the drawables look like this, one entry each, until the next call; geometry is not uploaded again.

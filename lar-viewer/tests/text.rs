@@ -132,18 +132,25 @@ fn text_lies_in_the_model_or_faces_the_camera() {
     check_picture("texts", &image);
 }
 
-/// One draw call and one upload for many labels: the time of a frame is that of its strokes.
+/// However many they are, labels are one draw call of one buffer.
 #[test]
-fn ten_thousand_labels_take_one_run() {
+fn a_hundred_thousand_labels_take_one_draw_call() {
     let Some(mut renderer) = renderer() else { return };
-    let labels = (0..10_000).map(|i| {
-        let at = [f64::from(i % 100), f64::from(i / 100), 0.0];
-        Label::new(i.to_string(), at)
+    let labels = (0..100_000_u32).map(|i| {
+        let at = [f64::from(i % 400), f64::from(i / 400), 0.0];
+        Label::new((i % 10).to_string(), at)
     });
     let mut scene = Scene::new();
     scene.push(Drawable::labels("many", labels).on_top()).unwrap();
-    let view = View { samples: 1, ..flat(&scene, StandardView::Top, 4.0 / 3.0) };
-    let image = renderer.render(&scene, &view, 320, 240).unwrap();
+    let view = View { samples: 1, ..flat(&scene, StandardView::Top, 8.0 / 5.0) };
+    let mut prepared = renderer.prepare(&scene).unwrap();
+    let uploaded = prepared.traffic();
+    assert_eq!(uploaded.geometry.made, 1, "one buffer");
+    let image = prepared.render(&view, 320, 200).unwrap();
+    let drawn = prepared.traffic() - uploaded;
+    assert_eq!((drawn.draw_calls, drawn.geometry.bytes, drawn.tables.bytes), (1, 0, 0));
     let dark = image.pixels().chunks_exact(4).filter(|p| p[0] < 128).count();
     assert!(20_000 < dark, "{dark}");
+    let last = prepared.pick(&view, [320, 200], [311, 6], 20).unwrap().unwrap();
+    assert!(95_000 < last.element, "one of the last: {last:?}");
 }

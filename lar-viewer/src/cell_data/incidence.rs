@@ -81,7 +81,13 @@ impl CellData {
         let dims = (0..=self.dim()).rev();
         let cells =
             dims.flat_map(|dim| (0..self.n_cells(dim) as u32).map(move |index| CellRef { dim, index }));
-        cells.filter(|&c| self.above(c).is_empty()).collect()
+        cells.filter(|&c| self.is_unit(c)).collect()
+    }
+
+    /// Whether a cell is in no other cell's boundary. O(1).
+    pub(crate) fn is_unit(&self, cell: CellRef) -> bool {
+        let rows = self.rows.get(usize::from(cell.dim));
+        rows.is_none_or(|rows| rows.outer_view(cell.index as usize).is_none_or(|row| row.nnz() == 0))
     }
 
     /// The units that have a cell in their boundaries, or the cell itself when it is one.

@@ -19,8 +19,7 @@ pub(super) struct Placed<'a> {
 impl Placed<'_> {
     /// Whether the clip plane takes its group, or the view hides edges.
     pub(super) fn is_removed(&self, scene: &Scene) -> bool {
-        let hidden_edges =
-            matches!(self.drawable.shape, Shape::Lines { cell_edges: true, .. }) && !self.view.edges;
+        let hidden_edges = self.drawable.curve().is_some() && !self.view.edges;
         let centroid = self.drawable.group.map(|g| scene.groups()[g.0 as usize].centroid);
         let whole = self.view.clip.filter(|c| c.whole_cells && self.drawable.clipped);
         hidden_edges || whole.zip(centroid).is_some_and(|(clip, c)| clip.removes(c))

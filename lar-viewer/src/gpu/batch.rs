@@ -10,7 +10,6 @@
 //! triangle are stored in order of position: triangles that two cells share then get bit-identical depths.
 
 use super::cull::Ball;
-use super::curves::mean_curve_length;
 use super::elements::{Dot, ELEMENT_BYTES, KINDS, LINES, Line, MESH, POINTS, STROKES, Stroke, Vertex};
 use super::frame::Placement;
 use crate::scene::{Drawable, Extents, Shape, point3};
@@ -114,10 +113,11 @@ impl Batch {
     fn push(&mut self, index: usize, drawable: &Drawable) {
         match &drawable.shape {
             Shape::Mesh { mesh, .. } => self.push_mesh(index, mesh),
-            Shape::Lines { segments, width, cell_edges } => {
+            Shape::Lines { segments, width, curve } => {
                 let place = |s: &[[f64; 3]; 2]| s.map(|p| self.place(p));
                 let placed: Vec<[[f32; 3]; 2]> = segments.iter().map(place).collect();
-                let most = if *cell_edges { EDGE_WIDTH * mean_curve_length(&placed) } else { UNLIMITED };
+                let most =
+                    curve.map_or(UNLIMITED, |length| EDGE_WIDTH * (length / self.placement.unit) as f32);
                 for (part, range) in self.new_parts(index, LINES, self.lines.len(), placed.len()) {
                     let line = |&[start, end]: &[[f32; 3]; 2]| Line { start, part, end, width: *width, most };
                     self.lines.extend(placed[range].iter().map(line));
@@ -151,9 +151,11 @@ impl Batch {
     }
 
     fn push_mesh(&mut self, index: usize, mesh: &TriangleMesh) {
+        let points = 0..mesh.points.len();
+        let placed: Vec<[f32; 3]> = points.map(|i| self.place(point3(&mesh.points, i))).collect();
         for (part, range) in self.new_parts(index, MESH, self.triangles.len(), mesh.triangles.len()) {
             for triangle in &mesh.triangles[range] {
-                let mut corners = triangle.map(|v| self.place(point3(&mesh.points, v as usize)));
+                let mut corners = triangle.map(|v| placed[v as usize]);
                 corners.sort_by(|a, b| {
                     a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])).then(a[2].total_cmp(&b[2]))
                 });
@@ -183,7 +185,7 @@ impl Batch {
     }
 
     fn place(&self, p: [f64; 3]) -> [f32; 3] {
-        self.placement.scene_from_world(p).map(|x| x as f32)
+        DVec3::from(self.placement.scene_from_world(p)).as_vec3().to_array()
     }
 }
 

@@ -3,11 +3,12 @@
 //! Adapters are asked for by backend, the native ones first and OpenGL last, and within a backend the discrete card
 //! before the integrated one before a software driver. `WGPU_BACKEND` (`vulkan`, `gl`, …) narrows the choice.
 
+use super::traffic::Traffic;
 use crate::ViewerError;
 use std::sync::{Arc, Mutex, PoisonError};
 #[cfg(not(target_arch = "wasm32"))]
 use wgpu::Backends;
-use wgpu::{Adapter, DeviceType, DownlevelFlags, Instance, Limits};
+use wgpu::{Adapter, Buffer, BufferUsages, DeviceType, DownlevelFlags, Instance, Limits};
 
 /// Storage buffers that the layer shaders use at once.
 const STORAGE_BUFFERS: u32 = 3;
@@ -42,6 +43,7 @@ pub(crate) struct Context {
     #[cfg(feature = "window")]
     pub(crate) is_software: bool,
     first_error: Arc<Mutex<Option<String>>>,
+    traffic: Mutex<Traffic>,
 }
 
 impl Context {
@@ -93,6 +95,7 @@ impl Context {
             #[cfg(feature = "window")]
             is_software: info.device_type == DeviceType::Cpu,
             first_error,
+            traffic: Mutex::default(),
         })
     }
 
@@ -111,11 +114,7 @@ impl Context {
     }
 
     /// The bytes of a buffer that was made with `MAP_READ`, when all work on it is done.
-    pub(crate) fn read<R>(
-        &self,
-        buffer: &wgpu::Buffer,
-        read: impl FnOnce(&[u8]) -> R,
-    ) -> Result<R, ViewerError> {
+    pub(crate) fn read<R>(&self, buffer: &Buffer, read: impl FnOnce(&[u8]) -> R) -> Result<R, ViewerError> {
         let (sender, receiver) = std::sync::mpsc::channel();
         buffer.slice(..).map_async(wgpu::MapMode::Read, move |result| {
             // The receiver lives until this has been called, unless waiting failed and said so.
@@ -137,11 +136,10 @@ impl Context {
         &self,
         what: &'static str,
         bytes: &[u8],
-        usage: wgpu::BufferUsages,
-    ) -> Result<wgpu::Buffer, ViewerError> {
+        usage: BufferUsages,
+    ) -> Result<Buffer, ViewerError> {
         let size = (bytes.len() as u64).next_multiple_of(4).max(48);
-        let storage = usage.contains(wgpu::BufferUsages::STORAGE);
-        let limit = if storage { self.largest_storage() } else { self.limits.max_buffer_size };
+        let limit = self.limits.max_buffer_size;
         if limit < size {
             return Err(ViewerError::SceneTooLarge {
                 what,
@@ -150,12 +148,50 @@ impl Context {
                 adapter: self.adapter_name.clone(),
             });
         }
-        let usage = usage | wgpu::BufferUsages::COPY_DST;
-        let descriptor = wgpu::BufferDescriptor { label: Some(what), size, usage, mapped_at_creation: false };
-        let buffer = self.device.create_buffer(&descriptor);
+        let buffer = self.buffer(what, size, usage | BufferUsages::COPY_DST);
         self.check()?;
-        self.queue.write_buffer(&buffer, 0, bytes);
+        self.write(&buffer, bytes);
+        self.count(|traffic| {
+            let upload = if usage.contains(BufferUsages::UNIFORM) {
+                &mut traffic.parameters
+            } else {
+                &mut traffic.geometry
+            };
+            upload.made += 1;
+            upload.bytes += bytes.len() as u64;
+        });
         Ok(buffer)
+    }
+
+    /// An empty buffer.
+    #[expect(clippy::disallowed_methods, reason = "all buffers are made here")]
+    pub(crate) fn buffer(&self, what: &'static str, size: u64, usage: BufferUsages) -> Buffer {
+        let descriptor = wgpu::BufferDescriptor { label: Some(what), size, usage, mapped_at_creation: false };
+        self.device.create_buffer(&descriptor)
+    }
+
+    #[expect(clippy::disallowed_methods, reason = "only `upload` calls this, and counts")]
+    fn write(&self, buffer: &Buffer, bytes: &[u8]) {
+        self.queue.write_buffer(buffer, 0, bytes);
+    }
+
+    /// Writes all texels of a table, rows of this many bytes.
+    #[expect(clippy::disallowed_methods, reason = "counted here")]
+    pub(crate) fn write_table(&self, table: &wgpu::Texture, bytes: &[u8], row_bytes: u32) {
+        let layout =
+            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row_bytes), rows_per_image: None };
+        self.queue.write_texture(table.as_image_copy(), bytes, layout, table.size());
+        self.count(|traffic| traffic.tables.bytes += bytes.len() as u64);
+    }
+
+    /// Counts what is handed to the graphics card.
+    pub(crate) fn count(&self, count: impl FnOnce(&mut Traffic)) {
+        count(&mut self.traffic.lock().unwrap_or_else(PoisonError::into_inner));
+    }
+
+    /// What was handed to the graphics card so far.
+    pub(crate) fn traffic(&self) -> Traffic {
+        *self.traffic.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Bytes of the largest storage buffer that can be bound whole.

@@ -2,6 +2,7 @@
 
 use crate::{Bounds, LEVELS, Projection, View};
 use bytemuck::{Pod, Zeroable};
+use glam::DVec3;
 
 /// Centroids, fixed points and planes are taken for no farther than this from the centre, in radii of the scene.
 const FARTHEST: f64 = 1e20;
@@ -76,7 +77,7 @@ pub(crate) struct Placement {
 impl Placement {
     /// A world position, to be rounded to f32 where it is small.
     pub(crate) fn scene_from_world(&self, p: [f64; 3]) -> [f64; 3] {
-        std::array::from_fn(|k| (p[k] - self.center[k]) / self.unit)
+        ((DVec3::from(p) - DVec3::from(self.center)) / self.unit).to_array()
     }
 
     /// A point that may lie anywhere, whatever the size of the scene, but whose product with any explosion is finite.

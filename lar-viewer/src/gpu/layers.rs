@@ -60,11 +60,11 @@ impl Layers {
         let band_rows = band_rows.min(largest_band(context, size));
         let n_bands = size[1].div_ceil(band_rows);
         let storage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
-        let heads = buffer(context, 4 * u64::from(size[0]) * u64::from(band_rows), storage);
-        let nodes = buffer(context, u64::from(NODE_BYTES) * u64::from(node_capacity), storage);
-        let counts = buffer(context, 4 * u64::from(n_bands), storage | BufferUsages::COPY_SRC);
+        let heads = context.buffer("heads", 4 * u64::from(size[0]) * u64::from(band_rows), storage);
+        let nodes = context.buffer("nodes", u64::from(NODE_BYTES) * u64::from(node_capacity), storage);
+        let counts = context.buffer("counts", 4 * u64::from(n_bands), storage | BufferUsages::COPY_SRC);
         let readback =
-            buffer(context, 4 * u64::from(n_bands), BufferUsages::COPY_DST | BufferUsages::MAP_READ);
+            context.buffer("counts", 4 * u64::from(n_bands), BufferUsages::COPY_DST | BufferUsages::MAP_READ);
         let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
         let group = context.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("layers"),
@@ -154,11 +154,6 @@ fn most_nodes(context: &Context, memory: u64) -> u32 {
 fn largest_band(context: &Context, [width, height]: [u32; 2]) -> u32 {
     let rows = context.largest_storage() / (4 * u64::from(width));
     u32::try_from(rows).unwrap_or(u32::MAX).clamp(1, height)
-}
-
-fn buffer(context: &Context, size: u64, usage: BufferUsages) -> Buffer {
-    let descriptor = wgpu::BufferDescriptor { label: Some("layers"), size, usage, mapped_at_creation: false };
-    context.device.create_buffer(&descriptor)
 }
 
 #[cfg(test)]

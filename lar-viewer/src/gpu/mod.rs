@@ -3,7 +3,6 @@
 pub(crate) mod batch;
 pub(crate) mod context;
 pub(crate) mod cull;
-mod curves;
 pub(crate) mod elements;
 pub(crate) mod frame;
 mod kinds;
@@ -19,3 +18,4 @@ pub(crate) mod shaders;
 mod shared;
 pub(crate) mod table;
 pub(crate) mod targets;
+pub(crate) mod traffic;

@@ -41,7 +41,7 @@ impl Part {
     pub(crate) fn new(drawable: &Drawable, appearance: &Appearance) -> Self {
         let kind = match &drawable.shape {
             Shape::Mesh { lit: true, .. } => LIT,
-            Shape::Lines { cell_edges: true, .. } => CELL_EDGE,
+            Shape::Lines { curve: Some(_), .. } => CELL_EDGE,
             Shape::Mesh { .. } | Shape::Lines { .. } | Shape::Points { .. } | Shape::Labels { .. } => 0,
         };
         let flag = |is_set: bool, flag| if is_set { flag } else { 0 };

@@ -179,7 +179,7 @@ impl<'a> Draw<'a> {
                 Way::Id | Way::Solid => &cast.solid,
             };
             pass.set_bind_group(0, group, &[offset]);
-            draw_runs(pass, self.pipelines, cast.scene, way, runs);
+            draw_runs(pass, self.context, self.pipelines, cast.scene, way, runs);
         }
     }
 

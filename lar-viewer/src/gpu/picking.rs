@@ -104,16 +104,12 @@ impl Renderer {
             for ((scene, frame), group) in scenes.iter().zip(&frames).zip(&groups) {
                 let runs = scene.runs(Way::Id, view.opacity, &Frustum::new(frame));
                 pass.set_bind_group(0, group, &[0]);
-                draw_runs(&mut pass, &self.pipelines, scene, Way::Id, &runs);
+                draw_runs(&mut pass, context, &self.pipelines, scene, Way::Id, &runs);
             }
         }
         let row_bytes = (ID_BYTES * side).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let buffer = context.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("ids"),
-            size: u64::from(row_bytes * side),
-            usage: BufferUsages::COPY_DST | BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        });
+        let usage = BufferUsages::COPY_DST | BufferUsages::MAP_READ;
+        let buffer = context.buffer("ids", u64::from(row_bytes * side), usage);
         let layout =
             wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row_bytes), rows_per_image: None };
         encoder.copy_texture_to_buffer(

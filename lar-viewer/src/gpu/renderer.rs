@@ -85,12 +85,8 @@ impl Renderer {
         let Raster { width, height, .. } = targets.raster;
         let row_bytes = 4 * width;
         let padded = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let buffer = self.context.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("picture"),
-            size: u64::from(padded) * u64::from(height),
-            usage: BufferUsages::COPY_DST | BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        });
+        let usage = BufferUsages::COPY_DST | BufferUsages::MAP_READ;
+        let buffer = self.context.buffer("picture", u64::from(padded) * u64::from(height), usage);
         let layout =
             wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded), rows_per_image: None };
         let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };

@@ -58,11 +58,13 @@ pub(super) fn frame_group(
 /// Draws stretches of elements: triangles by their vertices, all else as a few corners an instance.
 pub(super) fn draw_runs(
     pass: &mut RenderPass<'_>,
+    context: &Context,
     pipelines: &Pipelines,
     scene: &SceneBuffers,
     way: Way,
     runs: &[Run],
 ) {
+    context.count(|traffic| traffic.draw_calls += runs.len() as u64);
     for Run { kind, chunk, elements } in runs {
         pass.set_pipeline(pipelines.kinds[*kind].pipeline(way));
         pass.set_vertex_buffer(0, scene.chunks[*kind][*chunk].slice(..));

@@ -52,6 +52,7 @@ impl Table {
         context.check()?;
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
         let table = Self { texture, view };
+        context.count(|traffic| traffic.tables.made += 1);
         table.write(context, entries);
         Ok(table)
     }
@@ -60,11 +61,6 @@ impl Table {
     pub(crate) fn write<T: Pod>(&self, context: &Context, entries: &[T]) {
         let mut bytes = cast_slice::<T, u8>(entries).to_vec();
         bytes.resize(ROW_BYTES * self.texture.height() as usize, 0);
-        let layout = wgpu::TexelCopyBufferLayout {
-            offset: 0,
-            bytes_per_row: Some(ROW_BYTES as u32),
-            rows_per_image: None,
-        };
-        context.queue.write_texture(self.texture.as_image_copy(), &bytes, layout, self.texture.size());
+        context.write_table(&self.texture, &bytes, ROW_BYTES as u32);
     }
 }

@@ -1,16 +1,46 @@
 //! Drawables: named triangles, segments, dots or labels, with what they show and how they look.
 
-use super::{Appearance, CellRef, GroupId, point3};
+use super::{Appearance, CellRef, GroupId, mean_curve_length, point3};
 use crate::{Bounds, Label, Rgb, TextStyle, text};
 use lar_core::TriangleMesh;
 
 /// The geometry of a drawable.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Shape {
-    Mesh { mesh: TriangleMesh, lit: bool },
-    Lines { segments: Vec<[[f64; 3]; 2]>, width: f32, cell_edges: bool },
-    Points { points: Vec<[f64; 3]>, size: f32 },
-    Labels { labels: Vec<Label>, style: TextStyle, on_top: bool },
+    Mesh {
+        mesh: TriangleMesh,
+        lit: bool,
+    },
+    Lines {
+        segments: Vec<[[f64; 3]; 2]>,
+        width: f32,
+        /// Of edges of cells, how long the curves are that they are part of.
+        curve: Option<f64>,
+    },
+    Points {
+        points: Vec<[f64; 3]>,
+        size: f32,
+    },
+    Labels {
+        labels: Vec<Label>,
+        style: TextStyle,
+        on_top: bool,
+    },
+}
+
+impl Shape {
+    /// Its points, some of them repeatedly; what a broken triangle lacks is left out.
+    fn points_drawn(&self) -> Box<dyn Iterator<Item = [f64; 3]> + '_> {
+        match self {
+            Self::Mesh { mesh, .. } => {
+                let corners = mesh.triangles.as_flattened().iter().map(|&v| v as usize);
+                Box::new(corners.filter(|&v| v < mesh.points.len()).map(|v| point3(&mesh.points, v)))
+            }
+            Self::Lines { segments, .. } => Box::new(segments.as_flattened().iter().copied()),
+            Self::Points { points, .. } => Box::new(points.iter().copied()),
+            Self::Labels { labels, .. } => Box::new(labels.iter().map(|l| l.at)),
+        }
+    }
 }
 
 /// One named thing to draw: triangles, segments, points or labels in one colour.
@@ -29,6 +59,8 @@ pub struct Drawable {
     pub(crate) cell: Option<CellRef>,
     pub(crate) element_cells: Vec<CellRef>,
     pub(crate) clipped: bool,
+    /// The box around its points: they do not change.
+    bounds: Option<Bounds>,
 }
 
 impl Drawable {
@@ -43,15 +75,16 @@ impl Drawable {
     #[must_use]
     pub fn lines(name: impl Into<String>, segments: impl IntoIterator<Item = [[f64; 3]; 2]>) -> Self {
         let segments = segments.into_iter().collect();
-        Self::new(name, Shape::Lines { segments, width: 1.8, cell_edges: false }, crate::INK)
+        Self::new(name, Shape::Lines { segments, width: 1.8, curve: None }, crate::INK)
     }
 
     /// Segments that are the edges of cells: drawn as `lines`, hidden when the view shows no edges, and thinner where
     /// the cell is so small on the screen that its edges would cover it.
     #[must_use]
     pub fn edges(name: impl Into<String>, segments: impl IntoIterator<Item = [[f64; 3]; 2]>) -> Self {
-        let segments = segments.into_iter().collect();
-        Self::new(name, Shape::Lines { segments, width: 1.8, cell_edges: true }, crate::INK)
+        let segments: Vec<_> = segments.into_iter().collect();
+        let curve = Some(mean_curve_length(&segments));
+        Self::new(name, Shape::Lines { segments, width: 1.8, curve }, crate::INK)
     }
 
     /// Round dots of constant size on the screen.
@@ -73,6 +106,7 @@ impl Drawable {
     fn new(name: impl Into<String>, shape: Shape, color: Rgb) -> Self {
         Self {
             name: name.into(),
+            bounds: Bounds::of(shape.points_drawn()),
             shape,
             appearance: Appearance::new(color),
             group: None,
@@ -94,6 +128,11 @@ impl Drawable {
     pub fn opacity(mut self, opacity: f32) -> Self {
         self.appearance.opacity = opacity;
         self
+    }
+
+    /// Looking like this.
+    pub(crate) fn looking(self, appearance: Appearance) -> Self {
+        Self { appearance, ..self }
     }
 
     /// Not drawn until it is shown.
@@ -144,6 +183,23 @@ impl Drawable {
             *width = pixels;
         }
         self
+    }
+
+    /// Edges that are drawn as wide as those of curves of this length: a piece of a longer curve. No effect on other shapes.
+    #[must_use]
+    pub(crate) fn of_curve(mut self, length: f64) -> Self {
+        if let Shape::Lines { curve: Some(curve), .. } = &mut self.shape {
+            *curve = length;
+        }
+        self
+    }
+
+    /// How long the curves are that its edges are part of; `None` when it shows no edges of cells.
+    pub(crate) fn curve(&self) -> Option<f64> {
+        match self.shape {
+            Shape::Lines { curve, .. } => curve,
+            Shape::Mesh { .. } | Shape::Points { .. } | Shape::Labels { .. } => None,
+        }
     }
 
     /// Diameter of points in pixels. No effect on other shapes.
@@ -241,20 +297,12 @@ impl Drawable {
     /// The box around it, not exploded; `None` when it has no points.
     #[must_use]
     pub fn bounds(&self) -> Option<Bounds> {
-        Bounds::of(self.points_drawn())
+        self.bounds
     }
 
     /// The points that it draws, not exploded, some of them repeatedly.
     pub(crate) fn points_drawn(&self) -> Box<dyn Iterator<Item = [f64; 3]> + '_> {
-        match &self.shape {
-            Shape::Mesh { mesh, .. } => {
-                let corners = mesh.triangles.as_flattened().iter();
-                Box::new(corners.map(|&v| point3(&mesh.points, v as usize)))
-            }
-            Shape::Lines { segments, .. } => Box::new(segments.as_flattened().iter().copied()),
-            Shape::Points { points, .. } => Box::new(points.iter().copied()),
-            Shape::Labels { labels, .. } => Box::new(labels.iter().map(|l| l.at)),
-        }
+        self.shape.points_drawn()
     }
 }
 

@@ -11,6 +11,7 @@
 
 mod appearance;
 mod cell;
+mod curves;
 mod drawable;
 mod explosion;
 mod extents;
@@ -21,6 +22,7 @@ pub use cell::CellRef;
 pub use drawable::Drawable;
 pub use explosion::{Explosion, LEVELS};
 
+pub(crate) use curves::mean_curve_length;
 pub(crate) use drawable::Shape;
 pub(crate) use extents::Extents;
 pub(crate) use validate::finite;
@@ -213,10 +215,14 @@ impl Scene {
     }
 }
 
-/// Point `i` of a set of two or three coordinates, in z = 0 when of two.
+/// Point `i` of a set, with coordinates that it lacks 0.
 pub(crate) fn point3(points: &Points, i: usize) -> [f64; 3] {
-    let p = points.point(i);
-    [p[0], p[1], p.get(2).copied().unwrap_or(0.0)]
+    match *points.point(i) {
+        [x, y, z, ..] => [x, y, z],
+        [x, y] => [x, y, 0.0],
+        [x] => [x, 0.0, 0.0],
+        [] => [0.0; 3],
+    }
 }
 
 #[cfg(test)]

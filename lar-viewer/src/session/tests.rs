@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::{Bounds, Provenance, Scene};
-use lar_core::{ChainComplex, cuboid_grid};
+use lar_core::{Cells, ChainComplex, Model, Points, cuboid_grid};
 use proptest::prelude::*;
 
 /// Three unit cubes in a row and the exterior; the first is inside A, the second inside A and B, the third inside none.
@@ -265,6 +265,35 @@ fn everything_can_be_drawn_at_every_fineness() {
     }
 }
 
+/// A stroke of a drawing in many short segments, and the edges of cells for themselves: each is drawn as wide as the curve it
+/// is part of allows; what stands out is never thinner than it should be.
+#[test]
+fn edges_are_as_wide_as_their_curves_allow() {
+    let points: Vec<[f64; 3]> = (0..=20).map(|i| [0.05 * f64::from(i), 0.0, 0.0]).collect();
+    let cells = vec![Cells::singletons(21), (0..20).map(|i| [i, i + 1]).collect()];
+    let stroke = ChainComplex::from_model(&Model::new(Points::from_xyz(&points), cells)).unwrap();
+    let curves = |session: &Session, pieces: Pieces| {
+        let stage = Stage::new(session.data(), pieces).unwrap();
+        stage.pieces().drawables().iter().filter_map(crate::Drawable::curve).collect::<Vec<_>>()
+    };
+    let mut stroke = Session::new(CellData::new(stroke).unwrap());
+    let found = curves(&stroke, Pieces::Cells);
+    assert!(found.len() == 20 && found.iter().all(|x| (x - 1.0).abs() < 1e-12), "{found:?}");
+    assert_eq!(curves(&stroke, Pieces::Edges), found);
+    let cubes = curves(&session(), Pieces::Edges);
+    // Each edge of each face: around a face goes one curve.
+    let n = 3 * 24 + 14 * 4;
+    assert!(cubes.len() == n && cubes.iter().all(|x| [4.0, 8.0].contains(x)), "{cubes:?}");
+    let mut cubes = session();
+    cubes.apply(Command::Select(Some(cell(1, 3))));
+    let selected = scene(&cubes).drawables()[0].clone();
+    assert_eq!((selected.n_elements(), selected.curve()), (1, None));
+    stroke.apply(Command::Select(Some(cell(1, 3))));
+    let drawn = scene(&stroke);
+    let highlighted = drawn.drawables().iter().filter(|d| d.appearance().highlighted);
+    assert_eq!(highlighted.map(|d| d.cell_ref()).collect::<Vec<_>>(), [Some(cell(1, 3))], "a lone edge");
+}
+
 #[test]
 fn measured_points_are_drawn() {
     let mut session = session();
@@ -278,7 +307,7 @@ fn measured_points_are_drawn() {
 
 #[test]
 fn empty_complexes_are_shown_as_nothing() {
-    let empty = ChainComplex::new(lar_core::Points::new(3), vec![]);
+    let empty = ChainComplex::new(Points::new(3), vec![]);
     let session = Session::new(CellData::new(empty).unwrap());
     assert_eq!(scene(&session).drawables().len(), 0);
 }

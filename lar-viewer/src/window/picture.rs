@@ -93,3 +93,6 @@ impl Picture {
         Ok(seen.map(|seen| Hit::new(&subject.scenes[seen.scene], center, view, size, seen)))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,5 +1,6 @@
 //! Heights of the faces of a partition of the plane when it is pulled apart along z.
 
+use super::lone::{edges_beside, lone_edges};
 use crate::{Bounds, CellData, CellRef};
 use std::collections::VecDeque;
 
@@ -18,7 +19,7 @@ pub(super) fn lifts(data: &CellData, units: &[CellRef]) -> Vec<f64> {
     let points = (0..data.n_cells(0) as u32).filter_map(|v| data.position(v));
     let diagonal = Bounds::of(points).map_or(0.0, |b| 2.0 * b.radius());
     let height = |depth: u32| HIGHEST * diagonal * f64::from(depth) / f64::from(highest);
-    let of_edge = lone_edges(data, &depths);
+    let of_edge = depths_of_lone_edges(data, &depths);
     let of_unit = |unit: &CellRef| match unit.dim {
         2 => height(depths[unit.index as usize]),
         1 => height(of_edge[unit.index as usize]),
@@ -50,26 +51,12 @@ fn depths(data: &CellData) -> Vec<u32> {
 }
 
 /// For each edge in no face's boundary the depth of the deepest face at those that it hangs together with.
-fn lone_edges(data: &CellData, depths: &[u32]) -> Vec<u32> {
-    let around = |edge: u32| data.above(CellRef { dim: 1, index: edge });
+fn depths_of_lone_edges(data: &CellData, depths: &[u32]) -> Vec<u32> {
     let mut found = vec![0; data.n_cells(1)];
-    let mut seen = vec![false; data.n_cells(1)];
-    for first in (0..data.n_cells(1) as u32).filter(|&e| around(e).is_empty()) {
-        if std::mem::replace(&mut seen[first as usize], true) {
-            continue;
-        }
-        let (mut together, mut next, mut deepest) = (vec![first], 0, 0);
-        while let Some(&edge) = together.get(next) {
-            next += 1;
-            let ends = data.below(CellRef { dim: 1, index: edge });
-            for beside in ends.into_iter().flat_map(|v| data.above(CellRef { dim: 0, index: v })) {
-                let faces = around(beside);
-                deepest = faces.iter().map(|&f| depths[f as usize]).fold(deepest, u32::max);
-                if faces.is_empty() && !std::mem::replace(&mut seen[beside as usize], true) {
-                    together.push(beside);
-                }
-            }
-        }
+    for together in lone_edges(data) {
+        let beside = together.iter().flat_map(|&edge| edges_beside(data, edge));
+        let faces = beside.flat_map(|edge| data.above(CellRef { dim: 1, index: edge }));
+        let deepest = faces.map(|f| depths[f as usize]).max().unwrap_or(0);
         together.into_iter().for_each(|edge| found[edge as usize] = deepest);
     }
     found

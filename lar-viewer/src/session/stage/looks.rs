@@ -30,7 +30,7 @@ pub(super) fn looks(drawables: &[Drawable], roles: &[(Kind, Place)], session: &S
             Kind::Edges | Kind::Dots => (own.color, 1.0),
         };
         let opacity = opacity * ghost(session, place.unit, kind);
-        let highlighted = kind == Kind::Fill && session.selected() == Some(place.unit);
+        let highlighted = kind == Kind::of(place.unit) && session.selected() == Some(place.unit);
         Appearance { visible: is_shown(session, kind, place), highlighted, color, opacity }
     };
     drawables.iter().zip(roles).map(look).collect()

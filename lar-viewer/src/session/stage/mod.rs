@@ -12,6 +12,7 @@
 //! edges between it and the exterior, so that a face comes out of the one it lies in.
 
 mod lift;
+mod lone;
 mod looks;
 mod shapes;
 mod standing_out;
@@ -50,6 +51,17 @@ enum Kind {
     Dots,
 }
 
+impl Kind {
+    /// What a unit itself is drawn as.
+    fn of(unit: CellRef) -> Self {
+        match unit.dim {
+            0 => Self::Dots,
+            1 => Self::Edges,
+            _ => Self::Fill,
+        }
+    }
+}
+
 /// Drawables of a complex, and what they show.
 #[derive(Clone, Debug)]
 pub struct Stage {
@@ -70,8 +82,14 @@ impl Stage {
     pub fn new(data: &CellData, fineness: Pieces) -> Result<Self, ViewerError> {
         let units = data.units();
         let lifts = lift::lifts(data, &units);
-        let mut builder =
-            Builder { data, fineness, pieces: Scene::new(), roles: Vec::new(), groups: BTreeMap::new() };
+        let mut builder = Builder {
+            data,
+            fineness,
+            pieces: Scene::new(),
+            roles: Vec::new(),
+            groups: BTreeMap::new(),
+            lone: lone::curves(data),
+        };
         let middles: Vec<[f64; 3]> = units
             .iter()
             .zip(lifts)
@@ -112,7 +130,7 @@ impl Stage {
     pub fn scene(&self, session: &Session) -> Result<Scene, ViewerError> {
         let mut scene = self.standing_out(session)?;
         for (drawable, look) in self.pieces.drawables().iter().zip(self.appearances(session)) {
-            scene.push(Drawable { appearance: look, ..drawable.clone() })?;
+            scene.push(drawable.clone().looking(look))?;
         }
         Ok(scene)
     }
@@ -131,6 +149,8 @@ struct Builder<'a> {
     pieces: Scene,
     roles: Vec<(Kind, Place)>,
     groups: BTreeMap<Place, GroupId>,
+    /// How long the curves are that lone edges are part of.
+    lone: BTreeMap<u32, f64>,
 }
 
 impl Builder<'_> {
@@ -200,14 +220,17 @@ impl Builder<'_> {
     ) -> Result<(), ViewerError> {
         let data = self.data;
         self.push_drawable(Kind::Fill, place, group, fill(data, place.unit, faces))?;
+        let together = lines(data, edges);
+        let lone = self.lone.get(&place.unit.index).filter(|_| place.unit.dim == 1);
+        let curve = lone.copied().or(together.curve()).unwrap_or_default();
         if self.fineness < Pieces::Edges {
-            self.push_drawable(Kind::Edges, place, group, lines(data, edges))?;
+            self.push_drawable(Kind::Edges, place, group, together.of_curve(curve))?;
         } else {
             for &edge in edges {
                 let middle = data.middle(CellRef { dim: 1, index: edge });
                 let place = Place { edge: Some(edge), ..place };
                 let group = self.push_place(place, group, middle)?;
-                self.push_drawable(Kind::Edges, place, group, lines(data, &[edge]))?;
+                self.push_drawable(Kind::Edges, place, group, lines(data, &[edge]).of_curve(curve))?;
             }
         }
         if self.fineness < Pieces::Vertices {

@@ -29,6 +29,12 @@ pub(super) fn lines(data: &CellData, edges: &[u32]) -> Drawable {
     Drawable::edges("edges", segments).element_cells(cells)
 }
 
+/// An edge that stands out, however short it is.
+pub(super) fn stroke(data: &CellData, edge: u32) -> Drawable {
+    let cell = data.segment(edge).map(|_| CellRef { dim: 1, index: edge });
+    Drawable::lines("edge", data.segment(edge)).element_cells(cell)
+}
+
 pub(super) fn dots(data: &CellData, vertices: &[u32]) -> Drawable {
     let points = vertices.iter().filter_map(|&v| data.position(v));
     Drawable::points("vertices", points)

@@ -1,6 +1,7 @@
 //! What stands out of the pieces: selection, highlighted chain, replay, measurements, numbers.
 
-use super::{Place, Stage, dots, fill, lines};
+use super::shapes::stroke;
+use super::{Place, Stage, dots, fill};
 use crate::session::{Highlight, Pieces, Session};
 use crate::{CellData, CellRef, Drawable, GroupId, Rgb, Scene, TextStyle, ViewerError, push_numbers};
 
@@ -96,7 +97,7 @@ impl Stage {
             for unit in units {
                 let drawable = match cell.dim {
                     0 => dots(data, &[cell.index]).size(11.0),
-                    1 => lines(data, &[cell.index]).width(5.0),
+                    1 => stroke(data, cell.index).width(5.0),
                     _ => fill(data, unit, &[cell.index]),
                 };
                 let drawable = drawable.color(color).cell(unit);
