@@ -291,7 +291,11 @@ fn edges_are_as_wide_as_their_curves_allow() {
     stroke.apply(Command::Select(Some(cell(1, 3))));
     let drawn = scene(&stroke);
     let highlighted = drawn.drawables().iter().filter(|d| d.appearance().highlighted);
-    assert_eq!(highlighted.map(|d| d.cell_ref()).collect::<Vec<_>>(), [Some(cell(1, 3))], "a lone edge");
+    assert_eq!(
+        highlighted.map(crate::Drawable::cell_ref).collect::<Vec<_>>(),
+        [Some(cell(1, 3))],
+        "a lone edge"
+    );
 }
 
 #[test]
