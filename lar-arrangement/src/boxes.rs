@@ -29,6 +29,11 @@ impl<const D: usize> Aabb<D> {
         }
     }
 
+    /// Larger by so much on all sides.
+    pub(crate) fn larger(&self, by: f64) -> Self {
+        Self { lo: self.lo.map(|x| x - by), hi: self.hi.map(|x| x + by) }
+    }
+
     /// All comparisons are made: a branch for each would be predicted badly.
     pub(crate) fn meets(&self, other: &Self) -> bool {
         (0..D).fold(true, |meets, k| meets & (self.lo[k] <= other.hi[k]) & (other.lo[k] <= self.hi[k]))
@@ -204,7 +209,7 @@ impl<const D: usize> BoxTree<D> {
     }
 
     /// A tree of n boxes that all lie in another one. O(n log n).
-    fn within(all: &Aabb<D>, n: usize, box_of: impl Fn(u32) -> Aabb<D> + Sync + Send) -> Self {
+    pub(crate) fn within(all: &Aabb<D>, n: usize, box_of: impl Fn(u32) -> Aabb<D> + Sync + Send) -> Self {
         let (items, near) = along_curve(all, n, box_of);
         Self::of_near(items, |i| near[i as usize])
     }

@@ -8,8 +8,9 @@ use crate::error::ArrangementError;
 use crate::expression::Expression;
 use crate::fragment::Extent;
 use crate::live::Live;
+use crate::meeting::Meeting;
 use crate::parallel;
-use crate::pipeline::{Arranger, Meeting};
+use crate::pipeline::Arranger;
 use crate::progress::{Course, Plan};
 use crate::rays::Rays;
 use crate::simplify::{self, Detail};
@@ -136,12 +137,18 @@ impl Arranger<'_> {
     ) -> Result<Arrangement, ArrangementError> {
         course.begin("live boxes", &mut stats)?;
         let circuit = Circuit::new(expression, surfaces.len());
-        let live = Live::new(&soup, (&meeting.tree, &meeting.pairs), circuit.clone(), rule, course)?;
+        let live =
+            Live::new(&soup, (meeting.boxes(&soup).tree(), &meeting.pairs), circuit.clone(), rule, course)?;
         meeting.pairs.retain(|&pair| live.share(pair));
         let (mut skeleton, rings) =
             self.skeleton(&mut soup, (&meeting.pairs, Extent::NearResult), &mut stats, course)?;
         course.begin("visibility", &mut stats)?;
-        let rays = Rays { skeleton: &skeleton, geometry: &soup.geometry, rings: &rings, tree: &meeting.tree };
+        let rays = Rays {
+            skeleton: &skeleton,
+            geometry: &soup.geometry,
+            rings: &rings,
+            boxes: meeting.boxes(&soup),
+        };
         let is_inside = visible::sides_of_result(&rays, &soup, &live, (circuit, rule), course)?;
         let dissolved = self.dissolved(&mut skeleton, rings, &soup);
         let cell_of_side: Vec<u32> = is_inside.into_iter().map(u32::from).collect();

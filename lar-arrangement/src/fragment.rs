@@ -6,6 +6,7 @@
 
 use crate::boxes::{Aabb, BoxTree};
 use crate::crossing::segment_direction;
+use crate::half_edges::MANY;
 use crate::interner::Interner;
 use crate::kernel::{Along, Direction, Geometry, Sign, Support, Vertex};
 use crate::parallel;
@@ -51,16 +52,19 @@ impl Groups {
     /// From the sets of facets that overlap, and what was found in and on the facets.
     pub(crate) fn new(soup: &Soup, cuts: &Cuts, mut overlapping: UnionFind) -> Self {
         let n = soup.n_facets();
-        let mut is_member = parallel::map(n, |f| {
-            let is_split = |&code: &u32| !cuts.inner[(code / 2) as usize].is_empty();
-            !cuts.segments(f as u32).is_empty() || soup.facet_edges[f].iter().any(is_split)
-        });
-        for f in 0..n as u32 {
-            let leader = overlapping.find(f);
-            if leader != f {
-                is_member[f as usize] = true;
-                is_member[leader as usize] = true;
-            }
+        let is_split = |&code: &u32| !cuts.inner[(code / 2) as usize].is_empty();
+        let users = || cuts.split_edges.iter().flat_map(|&edge| soup.facets_of_edge[edge as usize]);
+        let mut is_member = if users().any(|user| user == MANY) {
+            parallel::map(n, |f| soup.facet_edges[f].iter().any(is_split))
+        } else {
+            vec![false; n]
+        };
+        for f in cuts.cut_facets().chain(users().filter(|&user| user < MANY)) {
+            is_member[f as usize] = true;
+        }
+        for f in overlapping.joined() {
+            is_member[f as usize] = true;
+            is_member[overlapping.find(f) as usize] = true;
         }
         let members = (0..n as u32).filter(|&f| is_member[f as usize]);
         let mut led: Vec<(u32, u32)> = members.map(|f| (overlapping.find(f), f)).collect();

@@ -1,4 +1,4 @@
-//! Stage 1g, for one Boolean only: where its surface can be.
+//! Stage 1i, for one Boolean only: where its surface can be.
 //!
 //! Space is divided in eight again and again. In a box that no facet of a solid meets the solid's winding number is one
 //! number. Where the numbers that are known decide the expression, by the rules of three-valued logic, the box is *dead*: no

@@ -25,7 +25,9 @@ impl Nesting<'_> {
         let n = self.n_shells as usize;
         // Element n stands for the exterior.
         let mut sets = UnionFind::new(n + 1);
-        for edge in self.first_edges() {
+        let edges = self.first_edges();
+        self.rays.boxes.prepare(edges.len());
+        for edge in edges {
             course.go_on()?;
             let mut here = self.shell_of_side[self.rays.sector(edge) as usize];
             for face in self.hits(edge) {

@@ -2,17 +2,15 @@
 
 use crate::arrangement::Arrangement;
 use crate::assemble::{Shells, assemble};
-use crate::boxes::{Aabb, BoxTree};
-use crate::canonical::{self, Input, Report, Scan};
-use crate::charts::Charts;
+use crate::canonical::{self, Report, Scan};
 use crate::check;
 use crate::coplanar;
 use crate::crossing::{self, Contacts, Scratch};
-use crate::curve;
 use crate::dissolve::{self, Dissolved};
 use crate::error::ArrangementError;
 use crate::fragment::{Extent, Fragmenter, Fragments, Groups};
 use crate::interner::Interner;
+use crate::meeting::Meeting;
 use crate::nest::Nesting;
 use crate::parallel;
 use crate::progress::{Cancel, Cancelled, Control, Course, Plan, Progress};
@@ -20,7 +18,6 @@ use crate::rays::Rays;
 use crate::skeleton::Skeleton;
 use crate::soup::{Placed, Soup};
 use crate::split::Cuts;
-use crate::stars::Stars;
 use crate::stats::Stats;
 use crate::tiles::{self, Merge};
 use crate::union_find::UnionFind;
@@ -226,7 +223,12 @@ impl<'a> Arranger<'a> {
         let (shell_of_side, n_shells) = wrap::shells(&rings, skeleton.n_faces());
         self.check(|| check::shells(&skeleton, &shell_of_side))?;
         course.begin("nesting", &mut stats)?;
-        let rays = Rays { skeleton: &skeleton, geometry: &soup.geometry, rings: &rings, tree: &meeting.tree };
+        let rays = Rays {
+            skeleton: &skeleton,
+            geometry: &soup.geometry,
+            rings: &rings,
+            boxes: meeting.boxes(&soup),
+        };
         let nesting = Nesting { rays, shell_of_side: &shell_of_side, n_shells };
         let (cell_of_shell, n_cells) = nesting.cells(course)?;
         course.begin("membership", &mut stats)?;
@@ -331,44 +333,6 @@ impl<'a> Arranger<'a> {
                 test().map_err(|f| ArrangementError::PostCondition { stage: f.stage, what: f.what })
             }
         }
-    }
-}
-
-/// The tree of the facets' boxes, larger by `reach` on all sides.
-fn facet_tree(soup: &Soup, charts: &Charts, reach: f64) -> BoxTree {
-    let larger = |b: Aabb| Aabb { lo: b.lo.map(|x| x - reach), hi: b.hi.map(|x| x + reach) };
-    let position = |p: u32| soup.geometry.position(p);
-    let around = |f: u32| match soup.facet_edges[f as usize].len() {
-        3 => Aabb::around(soup.geometry.base(f).map(position)),
-        _ => Aabb::around(soup.facet_edges[f as usize].iter().map(|&e| position(soup.directed(e)[0]))),
-    };
-    let n = soup.geometry.n_points();
-    let all = curve::hull(n, |p| Aabb { lo: position(p), hi: position(p) });
-    BoxTree::grouped(&larger(all), soup.n_facets(), |f| larger(around(f)), |f| charts.of(f))
-}
-
-/// Which facets may have something in common.
-pub(crate) struct Meeting {
-    pub tree: BoxTree,
-    charts: Charts,
-    stars: Stars,
-    /// Those whose boxes meet, without those that a chart or a clean point settles.
-    pub pairs: Vec<[u32; 2]>,
-}
-
-impl Meeting {
-    /// Boxes are larger by `reach`; `distance` is that of points that are nearly one.
-    fn new(soup: &Soup, distance: f64, reach: f64, course: &Course) -> Result<Self, Cancelled> {
-        let charts = Charts::new(soup, distance, course)?;
-        let stars = Stars::new(soup, &charts, distance);
-        let tree = facet_tree(soup, &charts, reach);
-        let is_open = |f: u32, g: u32| !charts.are_one(f, g) && !stars.settle(&soup.geometry, f, g);
-        let pairs = tree.pairs(course, is_open)?;
-        Ok(Self { tree, charts, stars, pairs })
-    }
-
-    fn input<'a>(&'a self, soup: &'a Soup) -> Input<'a> {
-        Input { soup, pairs: &self.pairs, charts: &self.charts, stars: &self.stars }
     }
 }
 

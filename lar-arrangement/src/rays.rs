@@ -3,8 +3,9 @@
 //! Degenerate hits are excluded by moving the start by (ε³, ε, ε²) for an infinitesimal ε, consistently in every
 //! predicate (simulation of simplicity). The middle of an edge touches only facets that lie in the faces around it.
 
-use crate::boxes::{Aabb, BoxTree};
+use crate::boxes::Aabb;
 use crate::kernel::{Geometry, Midpoint, Sign, Vertex};
+use crate::meeting::Boxes;
 use crate::skeleton::Skeleton;
 use crate::wrap;
 use lar_core::Cells;
@@ -16,7 +17,7 @@ pub(crate) struct Rays<'a> {
     pub geometry: &'a Geometry,
     pub rings: &'a Cells,
     /// The facets that the faces are pieces of.
-    pub tree: &'a BoxTree,
+    pub boxes: Boxes<'a>,
 }
 
 impl Rays<'_> {
@@ -33,7 +34,7 @@ impl Rays<'_> {
             lo: [f64::NEG_INFINITY, start.at[1] - 1.0, start.at[2] - 1.0],
             hi: start.at.map(|x| x + 1.0),
         };
-        self.tree.query(&beam, visit);
+        self.boxes.query(&beam, visit);
     }
 
     /// The side that bounds the sector around an edge into which its middle is moved: direction (ε², 1, ε).

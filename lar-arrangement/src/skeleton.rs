@@ -4,7 +4,7 @@
 //! Holds afterwards: vertices are pairwise distinct points, edges pairwise distinct, ∂1∂2 = 0.
 
 use crate::fragment::{FacetParent, Fragments, Groups, Piece, WHOLE};
-use crate::half_edges;
+use crate::half_edges::{self, HalfEdges};
 use crate::interner::Interner;
 use crate::kernel::{Along, Direction, Geometry, Vertex, VertexDef};
 use crate::parallel;
@@ -83,7 +83,8 @@ impl Skeleton {
         let whole = vec![NOT_SEEN; soup.edges.len()];
         let ends = |k: usize| fragments.iter().flat_map(|part| &part.pieces).map(move |piece| piece.ends[k]);
         let (tails, heads): (Vec<u32>, Vec<u32>) = (ends(0).collect(), ends(1).collect());
-        let first_piece = half_edges::first_of_edge(compact.len(), &tails, &heads);
+        let pieces = HalfEdges::Listed { tails: &tails, heads: &heads };
+        let first_piece = half_edges::first_of_edge(compact.len(), pieces);
         let edge_of_first = vec![NOT_SEEN; first_piece.len()];
         let mut builder = Builder {
             out,

@@ -10,9 +10,8 @@ use crate::canonical::Tolerance;
 use crate::error::ArrangementError;
 use crate::grid::Grid;
 use crate::grid_points::PointTable;
-use crate::half_edges::{self, MANY};
+use crate::half_edges::{self, HalfEdges, MANY};
 use crate::kernel::{Geometry, Sign};
-use crate::parallel;
 use crate::polygon::{Polygon, Shape};
 use crate::split::offsets;
 use lar_core::{Cells, Surface};
@@ -137,7 +136,7 @@ impl Soup {
         }
         let Builder { geometry, facets, polygon_flat, polygon_plane, parents, .. } = builder;
         let Builder { degenerate, triangulated, bend, .. } = builder;
-        let (edges, directed) = half_edges::edges(geometry.n_points(), &facets.tails, &facets.heads);
+        let (edges, directed) = half_edges::edges(geometry.n_points(), facets.half_edges(&geometry));
         let soft = facets.soft_edges(edges.len(), &directed);
         let facet_edges = Cells::from_parts(facets.offsets, directed);
         let facets_of_edge = half_edges::facets_of_edges(edges.len(), &facet_edges);
@@ -186,6 +185,11 @@ impl Soup {
 
     pub(crate) fn n_facets(&self) -> usize {
         self.facet_polygon.len()
+    }
+
+    /// Whether no facet has more than three edges.
+    pub(crate) fn are_triangles(&self) -> bool {
+        self.facet_edges.indices().len() == 3 * self.n_facets()
     }
 
     /// First and last point of a directed edge.
@@ -274,6 +278,11 @@ fn fitted_grid(surfaces: &[Surface]) -> Result<Grid, ArrangementError> {
                 hi[k] = hi[k].max(p[k]);
             }
         }
+        let n = surface.points.len();
+        let are_known = |corners: &[u32]| corners.iter().all(|&v| (v as usize) < n);
+        if surface.triangles().is_some_and(are_known) {
+            continue;
+        }
         for face in 0..surface.n_faces() {
             if let Some(&vertex) = surface.face(face).flatten().find(|&&v| v as usize >= surface.points.len())
             {
@@ -309,39 +318,65 @@ fn unified_points(surfaces: &[Surface], grid: &Grid) -> (Vec<[i64; 3]>, PointTab
 struct Facets {
     /// The half-edges of facet f are `offsets[f]..offsets[f + 1]`.
     offsets: Vec<u32>,
-    tails: Vec<u32>,
-    heads: Vec<u32>,
+    /// From where to where the half-edges lead; nothing as long as they are those of the bases.
+    ends: Option<[Vec<u32>; 2]>,
     /// Half-edges that are diagonals inside a polygon, ascending.
     soft: Vec<u32>,
     polygon: Vec<u32>,
 }
 
 impl Facets {
-    /// Adds n triangles, each a polygon of its own.
-    fn push_triangles(
-        &mut self,
-        n: usize,
-        base: impl Fn(usize) -> [u32; 3] + Sync + Send,
-        first_polygon: u32,
-    ) {
-        let end = u32::try_from(self.tails.len() + 3 * n).expect("fewer than 2^32 half-edges");
-        self.offsets.extend((self.tails.len() as u32..end).step_by(3).map(|begin| begin + 3));
-        self.polygon.extend(first_polygon..first_polygon + n as u32);
-        parallel::append(&mut self.tails, parallel::map_light(n, &base).into_flattened());
-        let heads = parallel::map_light(n, |i| {
-            let [a, b, c] = base(i);
-            [b, c, a]
-        });
-        parallel::append(&mut self.heads, heads.into_flattened());
+    fn n_half_edges(&self) -> u32 {
+        self.offsets.last().copied().unwrap_or(0)
     }
 
-    fn push(&mut self, half_edges: impl Iterator<Item = [u32; 2]>, polygon: u32) {
-        for [p, q] in half_edges {
-            self.tails.push(p);
-            self.heads.push(q);
+    fn half_edges<'a>(&'a self, geometry: &'a Geometry) -> HalfEdges<'a> {
+        match &self.ends {
+            Some([tails, heads]) => HalfEdges::Listed { tails, heads },
+            None => HalfEdges::OfTriangles(geometry.bases()),
         }
-        self.offsets.push(u32::try_from(self.tails.len()).expect("fewer than 2^32 half-edges"));
+    }
+
+    /// The ends of the half-edges, to be added to.
+    fn listed(&mut self, geometry: &Geometry) -> &mut [Vec<u32>; 2] {
+        self.ends.get_or_insert_with(|| {
+            let heads: Vec<u32> =
+                geometry.bases()[..self.polygon.len()].iter().flat_map(|&[a, b, c]| [b, c, a]).collect();
+            [geometry.bases()[..self.polygon.len()].as_flattened().to_vec(), heads]
+        })
+    }
+
+    /// Adds the newest facets of a geometry, n triangles, each a polygon of its own.
+    fn push_triangles(&mut self, n: usize, geometry: &Geometry, first_polygon: u32) {
+        let begin = self.n_half_edges();
+        let end = u32::try_from(begin as usize + 3 * n).expect("fewer than 2^32 half-edges");
+        self.offsets.extend((begin..end).step_by(3).map(|begin| begin + 3));
+        if self.ends.is_some() {
+            let bases = &geometry.bases()[self.polygon.len()..];
+            let [tails, heads] = self.listed(geometry);
+            tails.extend_from_slice(bases.as_flattened());
+            heads.extend(bases.iter().flat_map(|&[a, b, c]| [b, c, a]));
+        }
+        self.polygon.extend(first_polygon..first_polygon + n as u32);
+    }
+
+    /// Adds a facet, which the geometry has or is given next, and returns its half-edges.
+    fn push(
+        &mut self,
+        half_edges: impl Iterator<Item = [u32; 2]>,
+        geometry: &Geometry,
+        polygon: u32,
+    ) -> std::ops::Range<u32> {
+        let first = self.n_half_edges();
+        let [tails, heads] = self.listed(geometry);
+        for [p, q] in half_edges {
+            tails.push(p);
+            heads.push(q);
+        }
+        let end = u32::try_from(tails.len()).expect("fewer than 2^32 half-edges");
+        self.offsets.push(end);
         self.polygon.push(polygon);
+        first..end
     }
 
     /// Whether each edge is a diagonal in all its facets.
@@ -391,13 +426,11 @@ impl Builder<'_> {
     fn push_triangles_of(&mut self, solid: usize, corners: &[u32], point_of: &[u32]) {
         let n = corners.len() / 3;
         let point = |corner: usize| point_of[corners[corner] as usize];
-        let first = self.geometry.n_facets() as u32;
         let proper = self.geometry.push_grid_facets(n, |i| [0, 1, 2].map(|k| point(3 * i + k)));
         let n_proper = proper.as_ref().map_or(n, Vec::len);
         self.degenerate += (n - n_proper) as u32;
         let polygon = self.polygon_flat.len() as u32;
-        let geometry = &self.geometry;
-        self.facets.push_triangles(n_proper, |i| geometry.base(first + i as u32), polygon);
+        self.facets.push_triangles(n_proper, &self.geometry, polygon);
         let parent = |(face, polygon)| (polygon, Parent { solid: solid as u32, face, sign: 1 });
         match proper {
             None => self.parents.extend((0..n as u32).zip(polygon..).map(parent)),
@@ -563,12 +596,14 @@ impl Builder<'_> {
         polygon: u32,
         is_soft: impl Fn([u32; 2]) -> bool,
     ) {
-        let first = self.facets.tails.len() as u32;
-        self.facets.push(edges, polygon);
-        let pushed = first..self.facets.tails.len() as u32;
-        let ends = |h: u32| ascending([self.facets.tails[h as usize], self.facets.heads[h as usize]]);
-        let soft: Vec<u32> = pushed.filter(|&h| is_soft(ends(h))).collect();
-        self.facets.soft.extend(soft);
+        let mut diagonals = Vec::new();
+        let noted = edges.enumerate().inspect(|&(i, ends)| {
+            if is_soft(ascending(ends)) {
+                diagonals.push(i as u32);
+            }
+        });
+        let pushed = self.facets.push(noted.map(|(_, ends)| ends), &self.geometry, polygon);
+        self.facets.soft.extend(diagonals.into_iter().map(|i| pushed.start + i));
     }
 }
 

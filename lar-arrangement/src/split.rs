@@ -12,6 +12,8 @@ use lar_core::Cells;
 pub(crate) struct Cuts {
     /// Points inside each edge, from its first end to its second.
     pub inner: Cells,
+    /// The edges that have any, ascending.
+    pub split_edges: Vec<u32>,
     /// Sorted by facet.
     segments: Vec<Segment>,
     segment_offsets: Vec<u32>,
@@ -36,13 +38,21 @@ impl Cuts {
         touches.sort_unstable();
         touches.dedup();
         let n_facets = soup.n_facets();
+        let mut split_edges: Vec<u32> = splits.iter().map(|s| s.0).collect();
+        split_edges.dedup();
         Self {
+            split_edges,
             inner: sorted_along_edges(soup, &splits, interner),
             segment_offsets: offsets(n_facets, segments.iter().map(|s| s.facet)),
             touch_offsets: offsets(n_facets, touches.iter().map(|t| t.0)),
             segments,
             touches,
         }
+    }
+
+    /// The facets with segments inside, one after the other, some more than once.
+    pub(crate) fn cut_facets(&self) -> impl Iterator<Item = u32> + '_ {
+        self.segments.iter().map(|s| s.facet)
     }
 
     /// The segments inside a facet.

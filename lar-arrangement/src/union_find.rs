@@ -73,6 +73,11 @@ impl UnionFind {
         self.whole().union(x, y)
     }
 
+    /// The elements that are not the smallest of their sets.
+    pub(crate) fn joined(&self) -> Vec<u32> {
+        (0..).zip(&self.parent).filter(|(x, parent)| x != *parent).map(|(x, _)| x).collect()
+    }
+
     /// Number of each element's set; sets are numbered by their smallest members. Also the number of sets.
     pub(crate) fn labels(&mut self) -> (Vec<u32>, u32) {
         let mut labels = vec![0; self.parent.len()];

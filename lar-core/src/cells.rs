@@ -70,6 +70,7 @@ impl Cells {
 
     /// Number of cells.
     #[must_use]
+    #[inline]
     pub fn len(&self) -> usize {
         self.offsets.len() - 1
     }
@@ -82,6 +83,7 @@ impl Cells {
 
     /// The indices of cell `i`, or `None` when there is no such cell.
     #[must_use]
+    #[inline]
     pub fn get(&self, i: usize) -> Option<&[u32]> {
         let end = *self.offsets.get(i + 1)?;
         Some(&self.indices[self.offsets[i] as usize..end as usize])
@@ -97,12 +99,14 @@ impl Cells {
     }
 
     /// The cells one after the other.
+    #[inline]
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &[u32]> + DoubleEndedIterator + Clone + '_ {
         self.offsets.windows(2).map(|w| &self.indices[w[0] as usize..w[1] as usize])
     }
 
     /// The offsets: `len() + 1` numbers rising from 0.
     #[must_use]
+    #[inline]
     pub fn offsets(&self) -> &[u32] {
         &self.offsets
     }
@@ -115,6 +119,7 @@ impl Cells {
 
     /// The indices of all cells, cell after cell.
     #[must_use]
+    #[inline]
     pub fn indices(&self) -> &[u32] {
         &self.indices
     }
@@ -133,6 +138,7 @@ impl Default for Cells {
 impl std::ops::Index<usize> for Cells {
     type Output = [u32];
 
+    #[inline]
     fn index(&self, i: usize) -> &[u32] {
         &self.indices[self.offsets[i] as usize..self.offsets[i + 1] as usize]
     }

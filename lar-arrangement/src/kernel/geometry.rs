@@ -56,14 +56,6 @@ pub(crate) struct Vertex {
     pub def: VertexDef,
 }
 
-/// A facet by three of its corners that are not collinear and turn counter-clockwise about its normal.
-#[derive(Clone, Copy, Debug)]
-struct Facet {
-    base: [u32; 3],
-    /// The exact normal rounded: relative error below 2^-52 a component, and a positive factor.
-    normal: [f64; 3],
-}
-
 /// f64 image of a facet's plane: the rounded normal, `origin` a point on it, rounded, and `slack` bounds what that
 /// rounding does to a side.
 #[derive(Clone, Copy, Debug)]
@@ -117,7 +109,10 @@ pub(crate) struct Geometry {
     close_positions: Vec<[Double; 3]>,
     /// The shared planes in about 106 bits.
     close_planes: Vec<ApproxPlane>,
-    facets: Vec<Facet>,
+    /// Of each facet three corners that are not collinear and turn counter-clockwise about its normal.
+    bases: Vec<[u32; 3]>,
+    /// The exact normals rounded: relative error below 2^-52 a component, and a positive factor.
+    normals: Vec<[f64; 3]>,
     /// For each facet 0, or 1 + 2 · shared plane, + 1 when it looks the other way; empty in a scene without any.
     plane_codes: Vec<u32>,
     /// The first facet on each shared plane.
@@ -153,10 +148,6 @@ impl Geometry {
 
     pub(crate) fn n_points(&self) -> usize {
         self.points.len()
-    }
-
-    pub(crate) fn n_facets(&self) -> usize {
-        self.facets.len()
     }
 
     pub(crate) fn reach(&self) -> Reach {
@@ -251,17 +242,18 @@ impl Geometry {
         n: usize,
         base: impl Fn(usize) -> [u32; 3] + Sync + Send,
     ) -> Option<Vec<u32>> {
-        let mut new = parallel::map_light(n, |i| {
-            let base = base(i);
-            Facet { base, normal: self.grid_normal(base) }
-        });
-        let has_normal = |facet: &Facet| facet.normal != [0.0; 3];
-        let proper = (!new.iter().all(has_normal)).then(|| {
-            let proper = (0..).zip(&new).filter(|(_, facet)| has_normal(facet)).map(|(i, _)| i).collect();
-            new.retain(has_normal);
+        let mut bases = parallel::map_light(n, base);
+        let mut normals = parallel::map_light(n, |i| self.grid_normal(bases[i]));
+        let is_proper = |normal: &[f64; 3]| *normal != [0.0; 3];
+        let proper = (!normals.iter().all(is_proper)).then(|| {
+            let numbered = (0..n as u32).zip(&normals).filter(|(_, normal)| is_proper(normal));
+            let proper: Vec<u32> = numbered.map(|(i, _)| i).collect();
+            bases = proper.iter().map(|&i| bases[i as usize]).collect();
+            normals.retain(is_proper);
             proper
         });
-        parallel::append(&mut self.facets, new);
+        parallel::append(&mut self.bases, bases);
+        parallel::append(&mut self.normals, normals);
         proper
     }
 
@@ -269,9 +261,9 @@ impl Geometry {
     pub(crate) fn retain_facets(&mut self, keep: impl Fn(u32) -> bool) {
         let kept = |f: &u32| keep(*f);
         if !self.plane_codes.is_empty() {
-            self.plane_codes.resize(self.facets.len(), 0);
+            self.plane_codes.resize(self.bases.len(), 0);
             self.plane_codes =
-                (0..self.facets.len() as u32).filter(kept).map(|f| self.plane_codes[f as usize]).collect();
+                (0..self.bases.len() as u32).filter(kept).map(|f| self.plane_codes[f as usize]).collect();
             self.first_on_plane.fill(u32::MAX);
             for (&code, facet) in self.plane_codes.iter().zip(0..) {
                 if let Some(plane) = code.checked_sub(1) {
@@ -280,7 +272,9 @@ impl Geometry {
                 }
             }
         }
-        self.facets = (0..self.facets.len() as u32).filter(kept).map(|f| self.facets[f as usize]).collect();
+        let n = self.bases.len() as u32;
+        self.bases = (0..n).filter(kept).map(|f| self.bases[f as usize]).collect();
+        self.normals = (0..n).filter(kept).map(|f| self.normals[f as usize]).collect();
     }
 
     /// Adds a facet on a shared plane by three of its vertices that are not collinear; `flipped` when these turn
@@ -292,7 +286,7 @@ impl Geometry {
     }
 
     fn push_facet_with(&mut self, base: [u32; 3], normal: [f64; 3], code: u32) {
-        let facet = self.facets.len();
+        let facet = self.bases.len();
         if code != 0 || !self.plane_codes.is_empty() {
             self.plane_codes.resize(facet, 0);
             self.plane_codes.push(code);
@@ -301,11 +295,12 @@ impl Geometry {
             let first = &mut self.first_on_plane[plane as usize / 2];
             *first = (*first).min(facet as u32);
         }
-        self.facets.push(Facet { base, normal });
+        self.bases.push(base);
+        self.normals.push(normal);
     }
 
     pub(super) fn float(&self, facet: u32) -> FloatPlane {
-        let Facet { base, normal } = self.facets[facet as usize];
+        let (base, normal) = (self.base(facet), self.normal(facet));
         // A rounded origin and a rounded position are off by 2^-13 each, their difference by 2^-12 more.
         let weight = if self.reach == Reach::Grid { 0.0 } else { normal.iter().map(|n| n.abs()).sum() };
         FloatPlane { normal, origin: self.position(base[0]), slack: weight * 4.0 * ROUNDING }
@@ -339,7 +334,7 @@ impl Geometry {
     /// Whether a point lies on the facet's plane by definition: as one of the corners that define it, or because it
     /// was put there.
     pub(crate) fn lies_on(&self, p: u32, facet: u32) -> bool {
-        self.facets[facet as usize].base.contains(&p)
+        self.base(facet).contains(&p)
             || self.shared_plane(facet).is_some_and(|(plane, _)| self.is_defined_on(p, plane))
     }
 
@@ -352,12 +347,17 @@ impl Geometry {
 
     /// The three corners that define the facet's plane.
     pub(crate) fn base(&self, facet: u32) -> [u32; 3] {
-        self.facets[facet as usize].base
+        self.bases[facet as usize]
+    }
+
+    /// The corners that define the facets' planes, facet after facet.
+    pub(crate) fn bases(&self) -> &[[u32; 3]] {
+        &self.bases
     }
 
     /// The facet's normal, rounded, up to a positive factor.
     pub(crate) fn normal(&self, facet: u32) -> [f64; 3] {
-        self.facets[facet as usize].normal
+        self.normals[facet as usize]
     }
 
     /// The axis along which the facet's normal is longest, and whether it points up that axis. The component is

@@ -1,0 +1,246 @@
+//! Stage 1g: where facets of different charts come near each other.
+//!
+//! Space is divided into voxels larger than most facets: their boxes reach from one voxel no farther than into its upper
+//! neighbours. Each voxel is marked with the chart of the facets that begin there, or as *crowded* when these are of several
+//! charts or of none. Spread to where such facets reach, and back from there to where facets begin that reach into what is
+//! crowded, the marks tell which facets meet nothing but their neighbours in their chart: the broad phase need not look at
+//! them. Of two meshes that cross along a curve that is nearly everything.
+//!
+//! ```text
+//!     first voxels       what they reach into     what reaches into ▒▒
+//!    ┌──┬──┬──┬──┐        ┌──┬──┬──┬──┐            ┌──┬──┬──┬──┐
+//!    │a │a │  │b │        │a │a │▒▒│b │            │  │▒▒│▒▒│  │
+//!    └──┴──┴──┴──┘        └──┴──┴──┴──┘            └──┴──┴──┴──┘
+//! ```
+
+use crate::boxes::{Aabb, NO_GROUP};
+use crate::charts::Charts;
+use crate::parallel;
+use crate::soup::Soup;
+use std::sync::atomic::{AtomicU16, Ordering::Relaxed};
+use wide::u8x16;
+
+/// Fewer facets are not worth it.
+const FEW: usize = 1 << 12;
+/// Facets a chunk of work.
+const FACETS_A_CHUNK: usize = 1 << 14;
+/// There are so many voxels a facet in a cube around the scene.
+const VOXELS_A_FACET: f64 = 3.0;
+/// And no more than so many: a place fits into eight bits.
+const MOST_VOXELS: f64 = 255.0;
+/// The facets of a chunk may begin in so many voxels in the mean, those that are large in several, so that marking them is
+/// O(n).
+const MOST_VOXELS_A_FACET: usize = 16;
+/// Nothing begins in the voxel.
+const EMPTY: u16 = 0;
+/// Facets of several charts do, or one of no chart.
+const CROWDED: u16 = u16::MAX;
+/// A facet that is too large for one voxel.
+const LARGE: u32 = u32::MAX;
+
+/// The facets whose boxes, larger by `reach` on all sides, may meet that of one of another chart, or of none, ascending;
+/// `None` when they are not worth to be told from the others. O(n).
+pub(crate) fn facets(soup: &Soup, charts: &Charts, reach: f64, all: &Aabb) -> Option<Vec<u32>> {
+    let n = soup.n_facets();
+    if n < FEW || 4 * charts.without().count() > n {
+        return None;
+    }
+    let voxels = Voxels::new(soup, all, reach);
+    let (n_chunks, range) = parallel::chunks(n, FACETS_A_CHUNK);
+    let marked = parallel::map(n_chunks, |chunk| voxels.mark(soup, charts, range(chunk)));
+    let firsts: Vec<Vec<u32>> = marked.into_iter().collect::<Option<_>>()?;
+    let is_crowded = voxels.crowded();
+    let crowded = parallel::select(n, |f| {
+        match firsts[f as usize / FACETS_A_CHUNK][f as usize % FACETS_A_CHUNK] {
+            // There are few.
+            LARGE => true,
+            first => is_crowded[first as usize],
+        }
+    });
+    (4 * crowded.len() < 3 * n).then_some(crowded)
+}
+
+/// What something reaches into: along each axis k the first voxel, byte k, and the last, 255 less byte 4 + k.
+type Block = [u8; 8];
+
+/// The block around three.
+fn around([a, b, c]: [Block; 3]) -> Block {
+    let wide = |block: Block| {
+        let mut bytes = [0; 16];
+        bytes[..8].copy_from_slice(&block);
+        u8x16::from(bytes)
+    };
+    let all = wide(a).min(wide(b)).min(wide(c));
+    std::array::from_fn(|k| all.as_array()[k])
+}
+
+/// The first voxel of a block along each axis.
+fn first(block: Block) -> [usize; 3] {
+    [0, 1, 2].map(|k| usize::from(block[k]))
+}
+
+/// How many voxels wide a block is along each axis, less one.
+fn width(block: Block) -> [usize; 3] {
+    [0, 1, 2].map(|k| usize::from(!block[4 + k] - block[k]))
+}
+
+struct Voxels {
+    /// Number of voxels along each axis; the last has no upper neighbour and nothing begins there.
+    size: [usize; 3],
+    marks: Vec<AtomicU16>,
+    /// Around each point.
+    blocks: Vec<Block>,
+}
+
+impl Voxels {
+    fn new(soup: &Soup, all: &Aabb, reach: f64) -> Self {
+        let extent: [f64; 3] = std::array::from_fn(|k| all.hi[k] - all.lo[k]);
+        let longest = extent.iter().copied().fold(1.0, f64::max);
+        let scale = (soup.n_facets() as f64 * VOXELS_A_FACET).cbrt().min(MOST_VOXELS) / longest;
+        let end = extent.map(|x| (x * scale) as u8);
+        // What is farther right is in no voxel farther left, whatever is rounded.
+        let place = |x: f64, k: usize| (((x - all.lo[k]) * scale) as u8).min(end[k]);
+        let blocks = parallel::map_light(soup.geometry.n_points(), |p| {
+            let at = soup.geometry.position(p as u32);
+            let mut block = [0; 8];
+            for k in 0..3 {
+                block[k] = place(at[k] - reach, k);
+                block[4 + k] = !place(at[k] + reach, k);
+            }
+            block
+        });
+        let size = end.map(|end| usize::from(end) + 2);
+        let marks = (0..size.iter().product()).map(|_| AtomicU16::new(EMPTY)).collect();
+        Self { size, marks, blocks }
+    }
+
+    /// The block of a facet.
+    fn block(&self, soup: &Soup, facet: u32) -> Block {
+        let of = |p: u32| self.blocks[p as usize];
+        let of_base = around(soup.geometry.base(facet).map(of));
+        if soup.are_triangles() {
+            return of_base;
+        }
+        let edges = soup.facet_edges[facet as usize].iter();
+        edges.fold(of_base, |block, &code| around([block, block, of(soup.directed(code)[0])]))
+    }
+
+    fn index(&self, [x, y, z]: [usize; 3]) -> usize {
+        (z * self.size[1] + y) * self.size[0] + x
+    }
+
+    /// Marks where some facets begin; those that are too large begin everywhere. Returns where each does, or nothing when
+    /// there are too many of these.
+    fn mark(&self, soup: &Soup, charts: &Charts, facets: std::ops::Range<usize>) -> Option<Vec<u32>> {
+        let mut left = MOST_VOXELS_A_FACET * facets.len();
+        let mut firsts = Vec::with_capacity(facets.len());
+        for facet in facets {
+            let block = self.block(soup, facet as u32);
+            let own = match charts.of(facet as u32) {
+                NO_GROUP => CROWDED,
+                chart => u16::try_from(chart + 1).unwrap_or(CROWDED),
+            };
+            let (first, width) = (first(block), width(block));
+            if width[0] | width[1] | width[2] <= 1 {
+                let first = self.index(first);
+                add(&self.marks[first], own);
+                firsts.push(first as u32);
+                continue;
+            }
+            left = left.checked_sub(width.iter().map(|width| width + 1).product())?;
+            for z in first[2]..=first[2] + width[2] {
+                for y in first[1]..=first[1] + width[1] {
+                    let row = self.index([first[0], y, z]);
+                    self.marks[row..=row + width[0]].iter().for_each(|mark| add(mark, own));
+                }
+            }
+            firsts.push(LARGE);
+        }
+        Some(firsts)
+    }
+
+    /// Whether a facet that begins in a voxel may reach into one that others reach into. O(n).
+    fn crowded(self) -> Vec<bool> {
+        let mut marks: Vec<u16> = self.marks.into_iter().map(AtomicU16::into_inner).collect();
+        let steps = [1, self.size[0], self.size[0] * self.size[1]];
+        for step in steps {
+            let from = marks.clone();
+            parallel::each_chunk(&mut marks[step..], |begin, part| {
+                part.iter_mut().zip(&from[begin..]).for_each(|(mark, &lower)| *mark = both(*mark, lower));
+            });
+        }
+        let mut is_crowded: Vec<bool> = marks.into_iter().map(|mark| mark == CROWDED).collect();
+        for step in steps {
+            let from = is_crowded.clone();
+            parallel::each_chunk(&mut is_crowded, |begin, part| {
+                let upper = from.get(begin + step..).unwrap_or_default();
+                part.iter_mut().zip(upper).for_each(|(is_crowded, upper)| *is_crowded |= upper);
+            });
+        }
+        is_crowded
+    }
+}
+
+/// The mark of a voxel with two.
+fn both(a: u16, b: u16) -> u16 {
+    if a == b || a == EMPTY || b == EMPTY { a | b } else { CROWDED }
+}
+
+/// Adds a facet's mark to that of a voxel. In whatever order they come, the same is there in the end.
+fn add(mark: &AtomicU16, own: u16) {
+    let mut there = mark.load(Relaxed);
+    while there != own && there != CROWDED {
+        match mark.compare_exchange_weak(there, both(there, own), Relaxed, Relaxed) {
+            Ok(_) => return,
+            Err(now) => there = now,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::boxes::BoxTree;
+    use crate::meeting::box_of;
+    use crate::progress::{Control, Course};
+    use crate::soup::Placed;
+    use lar_core::{Affine, Surface, icosphere, rotation, s, t};
+
+    /// Whether some facets can be left out, and those that meet one of another chart are not.
+    fn check(surfaces: &[Surface], reach: f64, expected: bool) {
+        let soup = Soup::new(surfaces, Placed::snapped(surfaces, |_, _| 0.0).expect("the points are finite"));
+        let course = Course::new(Control::default(), &[]);
+        let charts = Charts::new(&soup, 1.5, &course).expect("nobody cancels");
+        let boxes: Vec<Aabb> = (0..soup.n_facets() as u32).map(|f| box_of(&soup, f).larger(reach)).collect();
+        let all = boxes.iter().fold(Aabb::EMPTY, |all, b| all.joined(b));
+        let crowded = facets(&soup, &charts, reach, &all);
+        assert_eq!(crowded.is_some(), expected);
+        let Some(crowded) = crowded else { return };
+        let is_other = |i: u32, j: u32| !charts.are_one(i, j);
+        let meeting = BoxTree::new(&boxes).pairs(&course, is_other).expect("nobody cancels");
+        assert!(!meeting.is_empty());
+        assert!(meeting.as_flattened().iter().all(|f| crowded.binary_search(f).is_ok()));
+    }
+
+    fn ball(subdivisions: u32, map: &Affine) -> Surface {
+        let turned = rotation([1.0, 2.0, 3.0], 0.3).expect("an axis");
+        let ball = Surface::from_triangles("ball", &icosphere(subdivisions));
+        ball.transformed(map).and_then(|ball| ball.transformed(&turned)).expect("a map of space")
+    }
+
+    #[test]
+    fn what_meets_another_chart_is_crowded() {
+        check(&[ball(5, &t(&[0.0; 3])), ball(5, &t(&[0.3, 0.1, 0.2]))], 0.0, true);
+        check(&[ball(5, &t(&[0.0; 3])), ball(4, &t(&[1.9, 0.1, 0.2]))], 1e6, true);
+        check(&[ball(5, &t(&[0.0; 3])), ball(5, &s(&[0.99, 1.01, 0.98]))], 0.0, false);
+        check(&[ball(3, &t(&[0.0; 3]))], 0.0, false);
+    }
+
+    #[test]
+    fn large_facets_are_crowded_with_all_they_reach_into() {
+        let small = || t(&[0.8, 0.5, 0.2]).compose(&s(&[0.2; 3])).expect("both are maps of space");
+        check(&[ball(5, &t(&[0.0; 3])), ball(0, &small())], 0.0, true);
+        check(&[ball(5, &t(&[0.0; 3])), ball(0, &t(&[0.5, 0.1, 0.2]))], 0.0, true);
+        check(&[ball(5, &t(&[0.0; 3])), ball(0, &s(&[9.0; 3])), ball(0, &small())], 0.0, false);
+    }
+}

@@ -1,0 +1,125 @@
+//! Stage 1h: which facets may have something in common.
+
+use crate::boxes::{Aabb, BoxTree};
+use crate::canonical::Input;
+use crate::charts::Charts;
+use crate::crowds;
+use crate::curve;
+use crate::parallel;
+use crate::progress::{Cancelled, Course};
+use crate::soup::Soup;
+use crate::stars::Stars;
+use std::sync::OnceLock;
+
+/// For fewer queries every facet is looked at: a tree takes as long as some dozens of such passes.
+const QUERIES_WORTH_A_TREE: usize = 16;
+
+/// Pairs of facets, and what they were found with.
+pub(crate) struct Meeting {
+    /// The boxes of all facets, once they are needed.
+    tree: OnceLock<BoxTree>,
+    charts: Charts,
+    stars: Stars,
+    /// Those whose boxes meet, without those that a chart or a clean point settles.
+    pub pairs: Vec<[u32; 2]>,
+}
+
+impl Meeting {
+    /// Boxes are larger by `reach`; `distance` is that of points that are nearly one.
+    pub(crate) fn new(soup: &Soup, distance: f64, reach: f64, course: &Course) -> Result<Self, Cancelled> {
+        let charts = Charts::new(soup, distance, course)?;
+        let stars = Stars::new(soup, &charts, distance);
+        let all = hull(soup).larger(reach);
+        let is_open = |f: u32, g: u32| !charts.are_one(f, g) && !stars.settle(&soup.geometry, f, g);
+        let tree = OnceLock::new();
+        let pairs = match crowds::facets(soup, &charts, reach, &all) {
+            Some(crowded) => {
+                let facet = |i: u32| crowded[i as usize];
+                let box_of = |i| box_of(soup, facet(i)).larger(reach);
+                let tree = BoxTree::grouped(&all, crowded.len(), box_of, |i| charts.of(facet(i)));
+                let pairs = tree.pairs(course, |i, j| is_open(facet(i), facet(j)))?;
+                pairs.into_iter().map(|pair| pair.map(facet)).collect()
+            }
+            None => {
+                let box_of = |f| box_of(soup, f).larger(reach);
+                let all_facets = BoxTree::grouped(&all, soup.n_facets(), box_of, |f| charts.of(f));
+                tree.get_or_init(|| all_facets).pairs(course, is_open)?
+            }
+        };
+        Ok(Self { tree, charts, stars, pairs })
+    }
+
+    pub(crate) fn input<'a>(&'a self, soup: &'a Soup) -> Input<'a> {
+        Input { soup, pairs: &self.pairs, charts: &self.charts, stars: &self.stars }
+    }
+
+    /// The boxes of the facets, to be searched.
+    pub(crate) fn boxes<'a>(&'a self, soup: &'a Soup) -> Boxes<'a> {
+        Boxes { soup, tree: &self.tree }
+    }
+}
+
+/// The boxes of all facets.
+#[derive(Clone, Copy)]
+pub(crate) struct Boxes<'a> {
+    soup: &'a Soup,
+    tree: &'a OnceLock<BoxTree>,
+}
+
+impl<'a> Boxes<'a> {
+    pub(crate) fn tree(&self) -> &'a BoxTree {
+        self.tree.get_or_init(|| {
+            let box_of = |f| box_of(self.soup, f);
+            BoxTree::within(&hull(self.soup), self.soup.n_facets(), box_of)
+        })
+    }
+
+    /// Makes ready for so many queries.
+    pub(crate) fn prepare(&self, n_queries: usize) {
+        if n_queries >= QUERIES_WORTH_A_TREE {
+            self.tree();
+        }
+    }
+
+    /// Calls `visit` with each facet whose box meets another one, up to rounding.
+    pub(crate) fn query(&self, target: &Aabb, visit: impl FnMut(u32)) {
+        match self.tree.get() {
+            Some(tree) => tree.query(target, visit),
+            None => passing(self.soup, target).into_iter().for_each(visit),
+        }
+    }
+}
+
+/// The facets whose boxes meet another one, without a tree. O(n).
+fn passing(soup: &Soup, target: &Aabb) -> Vec<u32> {
+    // A box beyond one of the target's sides has all its corners there.
+    let sides = parallel::map_light(soup.geometry.n_points(), |p| {
+        let at = soup.geometry.position(p as u32);
+        let beyond = |k: usize| {
+            u8::from(at[k] < target.lo[k]) << (2 * k) | u8::from(at[k] > target.hi[k]) << (2 * k + 1)
+        };
+        beyond(0) | beyond(1) | beyond(2)
+    });
+    let of = |p: u32| sides[p as usize];
+    let of_others =
+        |f: u32| soup.facet_edges[f as usize].iter().fold(!0, |all, &code| all & of(soup.directed(code)[0]));
+    parallel::select(soup.n_facets(), |f| {
+        let [a, b, c] = soup.geometry.base(f).map(of);
+        a & b & c == 0 || !soup.are_triangles() && of_others(f) == 0
+    })
+}
+
+/// The box around all points.
+fn hull(soup: &Soup) -> Aabb {
+    let position = |p: u32| soup.geometry.position(p);
+    curve::hull(soup.geometry.n_points(), |p| Aabb { lo: position(p), hi: position(p) })
+}
+
+/// The box around a facet. O(its edges).
+pub(crate) fn box_of(soup: &Soup, facet: u32) -> Aabb {
+    let position = |p: u32| soup.geometry.position(p);
+    match &soup.facet_edges[facet as usize] {
+        [_, _, _] => Aabb::around(soup.geometry.base(facet).map(position)),
+        edges => Aabb::around(edges.iter().map(|&e| position(soup.directed(e)[0]))),
+    }
+}
