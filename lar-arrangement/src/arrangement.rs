@@ -105,7 +105,7 @@ impl Arrangement {
     /// Number of 3-cells, the exterior included.
     #[must_use]
     pub fn n_cells(&self) -> usize {
-        self.complex.n_cells(3)
+        self.windings.n_cells()
     }
 
     /// Number of shells: closed 2-cycles of face sides, each a connected part of the boundary of one cell.

@@ -20,15 +20,27 @@ pub(crate) struct Shells<'a> {
     pub n_cells: u32,
 }
 
+/// Which operators the complex of an arrangement has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Operators {
+    All,
+    /// Only ∂1: the arrangement is on the way to a surface, which has operators of its own.
+    Edges,
+}
+
 /// The final numbering, positions and matrices.
 pub(crate) fn assemble(
     surfaces: &[Surface],
-    soup: Soup,
-    skeleton: Skeleton,
+    mut soup: Soup,
+    mut skeleton: Skeleton,
     mut dissolved: Dissolved,
     shells: &Shells,
+    operators: Operators,
     (mut stats, course): (Stats, &Course),
 ) -> Result<Arrangement, Cancelled> {
+    // What follows fits into the memory of what is not needed any more.
+    soup.drop_edges();
+    skeleton.drop_edges();
     let shells_of_face = parallel::map(dissolved.old_face.len(), |face| {
         let old = dissolved.old_face[face];
         [0, 1].map(|side| shells.of_side[(2 * old + side) as usize])
@@ -54,17 +66,16 @@ pub(crate) fn assemble(
     };
     let edges = std::mem::take(&mut dissolved.merged.edges);
     let n_edges = edges.len();
-    let (below, (boundary_2, boundary_3)) = parallel::join(
+    let ((points, boundary_1), above) = parallel::join(
         || (positions(&soup, &vertices), boundary_1(vertices.len(), edges)),
         || {
-            parallel::join(
-                || boundary_2(n_edges, &dissolved.merged),
-                || boundary_3(&cells_of_face, shells.n_cells as usize),
-            )
+            let of_faces = || boundary_2(n_edges, &dissolved.merged);
+            let of_cells = || boundary_3(&cells_of_face, shells.n_cells as usize);
+            (operators == Operators::All).then(|| parallel::join(of_faces, of_cells))
         },
     );
-    let (points, boundary_1) = below;
-    let complex = ChainComplex::new(points, vec![boundary_1, boundary_2, boundary_3]);
+    let above = above.into_iter().flat_map(|(boundary_2, boundary_3)| [boundary_2, boundary_3]);
+    let complex = ChainComplex::new(points, [boundary_1].into_iter().chain(above).collect());
     stats.grid_step = soup.grid.step();
     stats.facets = soup.n_facets() as u64;
     stats.triangulated_polygons = u64::from(soup.triangulated);

@@ -1,7 +1,7 @@
 //! One Boolean without the arrangement: stages 1 to 4 where its surface can be, then the faces that are of it.
 
 use crate::arrangement::Arrangement;
-use crate::assemble::{Shells, assemble};
+use crate::assemble::{Operators, Shells, assemble};
 use crate::boolean::{BooleanError, FillRule};
 use crate::circuit::Circuit;
 use crate::error::ArrangementError;
@@ -110,7 +110,7 @@ impl Arranger<'_> {
         let mut arrangement = if is_direct {
             self.result_alone(surfaces, soup, meeting, question, (stats, &course))?
         } else {
-            self.arranged(surfaces, soup, &meeting, (stats, &course))?
+            self.arranged(surfaces, soup, meeting, Operators::Edges, (stats, &course))?
         };
         let mut stats = std::mem::take(&mut arrangement.stats);
         let solid = if is_direct {
@@ -153,6 +153,6 @@ impl Arranger<'_> {
         let dissolved = self.dissolved(&mut skeleton, rings, &soup);
         let cell_of_side: Vec<u32> = is_inside.into_iter().map(u32::from).collect();
         let shells = Shells { of_side: &cell_of_side, n: 2, cell_of: &[0, RESULT.0], n_cells: 2 };
-        Ok(assemble(surfaces, soup, skeleton, dissolved, &shells, (stats, course))?)
+        Ok(assemble(surfaces, soup, skeleton, dissolved, &shells, Operators::Edges, (stats, course))?)
     }
 }

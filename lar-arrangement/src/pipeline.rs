@@ -1,7 +1,7 @@
 //! The driver: surfaces in, arrangement out, stage by stage.
 
 use crate::arrangement::Arrangement;
-use crate::assemble::{Shells, assemble};
+use crate::assemble::{Operators, Shells, assemble};
 use crate::canonical::{self, Report, Scan};
 use crate::check;
 use crate::coplanar;
@@ -204,7 +204,7 @@ impl<'a> Arranger<'a> {
         let mut stats = Stats::default();
         let course = Course::new(self.control, PLAN);
         let (soup, meeting) = self.soup_and_pairs(surfaces, &mut stats, &course)?;
-        let mut out = self.arranged(surfaces, soup, &meeting, (stats, &course))?;
+        let mut out = self.arranged(surfaces, soup, meeting, Operators::All, (stats, &course))?;
         course.finish(&mut out.stats);
         self.check(|| check::arrangement(&out))?;
         Ok(out)
@@ -215,7 +215,8 @@ impl<'a> Arranger<'a> {
         &self,
         surfaces: &[Surface],
         mut soup: Soup,
-        meeting: &Meeting,
+        meeting: Meeting,
+        operators: Operators,
         (mut stats, course): (Stats, &Course),
     ) -> Result<Arrangement, ArrangementError> {
         let (mut skeleton, rings) =
@@ -231,10 +232,11 @@ impl<'a> Arranger<'a> {
         };
         let nesting = Nesting { rays, shell_of_side: &shell_of_side, n_shells };
         let (cell_of_shell, n_cells) = nesting.cells(course)?;
+        drop(meeting);
         course.begin("membership", &mut stats)?;
         let dissolved = self.dissolved(&mut skeleton, rings, &soup);
         let shells = Shells { of_side: &shell_of_side, n: n_shells, cell_of: &cell_of_shell, n_cells };
-        Ok(assemble(surfaces, soup, skeleton, dissolved, &shells, (stats, course))?)
+        Ok(assemble(surfaces, soup, skeleton, dissolved, &shells, operators, (stats, course))?)
     }
 
     /// Stages 2 to 4: the faces, and their order around the edges.

@@ -117,6 +117,14 @@ impl Skeleton {
         builder.out
     }
 
+    /// Lets go of what only stages 4 and 5 need, once the loops are those of the arrangement.
+    pub(crate) fn drop_edges(&mut self) {
+        self.directions = Vec::new();
+        self.direction_of = Vec::new();
+        self.soft = Vec::new();
+        self.faces_of_facet = Vec::new();
+    }
+
     pub(crate) fn n_faces(&self) -> usize {
         self.face_loops.len() - 1
     }

@@ -244,6 +244,16 @@ impl Soup {
         if self.polygon_flat[polygon as usize] { polygon } else { self.polygon_flat.len() as u32 + facet }
     }
 
+    /// Lets go of what only stages 1 to 4 need: the edges, and how exact the points are.
+    pub(crate) fn drop_edges(&mut self) {
+        self.edges = Vec::new();
+        self.facet_edges = Cells::new();
+        self.facets_of_edge = Vec::new();
+        self.point_of = Vec::new();
+        self.tolerances = Vec::new();
+        self.polygon_plane = Vec::new();
+    }
+
     /// Parents of a facet.
     pub(crate) fn parents(&self, facet: u32) -> &[Parent] {
         self.polygon_parents(self.facet_polygon[facet as usize])

@@ -164,6 +164,10 @@ impl Windings {
         out
     }
 
+    pub(crate) fn n_cells(&self) -> usize {
+        self.offsets.len() - 1
+    }
+
     /// The solids with a winding number other than zero in a cell.
     pub(crate) fn of_cell(&self, cell: usize) -> &[(u32, i32)] {
         &self.entries[self.offsets[cell] as usize..self.offsets[cell + 1] as usize]
