@@ -15,6 +15,24 @@ pub(crate) fn offsets(lengths: impl ExactSizeIterator<Item = u32>) -> Vec<u32> {
     out
 }
 
+/// As `offsets`, for n lengths that are looked up by all threads.
+pub(crate) fn offsets_of(n: usize, length: impl Fn(usize) -> u32 + Sync + Send) -> Vec<u32> {
+    if parallel::n_threads() == 1 {
+        return offsets((0..n).map(length));
+    }
+    let (n_chunks, range) = parallel::chunks(n, 1 << 14);
+    let begins = offsets(parallel::map(n_chunks, |i| range(i).map(&length).sum()).into_iter());
+    let mut out = parallel::zeros(n + 1);
+    let parts = parallel::cut(&mut out[1..], (0..n_chunks).map(|i| range(i).len()));
+    parallel::each(parts.into_iter().zip(begins).enumerate().collect(), |(i, (part, begin))| {
+        part.iter_mut().zip(range(i)).fold(begin, |end, (to, item)| {
+            *to = end + length(item);
+            *to
+        });
+    });
+    out
+}
+
 /// Lists of lists one after the other, each as where its lists begin and end and what is in all of them.
 pub(crate) fn joined<T>(parts: Vec<(Vec<u32>, Vec<T>)>) -> (Vec<u32>, Vec<T>) {
     let mut parts = parts.into_iter();

@@ -7,7 +7,7 @@ use lar_core::{Cells, ChainComplex, Operator};
 use std::ops::Range;
 
 pub(crate) fn boundary_1(n_vertices: usize, edges: Vec<[u32; 2]>) -> Operator {
-    let (mut offsets, mut signs) = (vec![0; edges.len() + 1], vec![0; 2 * edges.len()]);
+    let (mut offsets, mut signs) = (parallel::zeros(edges.len() + 1), parallel::zeros(2 * edges.len()));
     parallel::each_chunk(&mut offsets, |begin, part| {
         part.iter_mut().zip((2 * begin as u32..).step_by(2)).for_each(|(to, offset)| *to = offset);
     });

@@ -102,25 +102,37 @@ pub(crate) fn n_threads() -> usize {
     1
 }
 
-/// Applies `f` to 0..n and collects the results in order.
+/// At most so many pieces of work are worth giving to threads one by one. Left to itself rayon makes fewer, and one
+/// thread waits long for the other's last.
+const PIECES: usize = 512;
+
+/// Applies `f` to 0..n, up to `piece` at a time, and collects the results in order.
 #[cfg(feature = "rayon")]
-pub(crate) fn map<R: Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send) -> Vec<R> {
+fn map_pieces<R: Send>(n: usize, piece: usize, f: impl Fn(usize) -> R + Sync + Send) -> Vec<R> {
     use rayon::prelude::*;
-    if n < 2 || n_threads() == 1 { (0..n).map(f).collect() } else { (0..n).into_par_iter().map(f).collect() }
+    if n <= piece || n_threads() == 1 {
+        return (0..n).map(f).collect();
+    }
+    (0..n).into_par_iter().with_max_len(piece).map(f).collect()
 }
 
 /// Applies `f` to 0..n and collects the results in order.
 #[cfg(not(feature = "rayon"))]
-pub(crate) fn map<R>(n: usize, f: impl Fn(usize) -> R) -> Vec<R> {
+fn map_pieces<R>(n: usize, _: usize, f: impl Fn(usize) -> R) -> Vec<R> {
     (0..n).map(f).collect()
 }
 
+/// Applies `f` to 0..n and collects the results in order.
+pub(crate) fn map<R: Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send) -> Vec<R> {
+    map_pieces(n, n.div_ceil(PIECES).max(1), f)
+}
+
 /// So many small items are worth another thread.
-const WORTH_A_THREAD: usize = 2048;
+const WORTH_A_THREAD: usize = 1024;
 
 /// As `map`, for work that takes less time than giving it to a thread.
 pub(crate) fn map_light<R: Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send) -> Vec<R> {
-    if n < WORTH_A_THREAD { (0..n).map(f).collect() } else { map(n, f) }
+    map_pieces(n, n.div_ceil(PIECES).max(WORTH_A_THREAD), f)
 }
 
 /// As `map_light`, for two results.
@@ -130,7 +142,7 @@ pub(crate) fn unzip_light<A: Send, B: Send>(
     f: impl Fn(usize) -> (A, B) + Sync + Send,
 ) -> (Vec<A>, Vec<B>) {
     use rayon::prelude::*;
-    if n < WORTH_A_THREAD || n_threads() == 1 {
+    if n <= WORTH_A_THREAD || n_threads() == 1 {
         return (0..n).map(f).unzip();
     }
     let (mut a, mut b) = (Vec::new(), Vec::new());
@@ -160,7 +172,11 @@ pub(crate) fn join<A, B>(a: impl FnOnce() -> A, b: impl FnOnce() -> B) -> (A, B)
 #[cfg(feature = "rayon")]
 pub(crate) fn each<T: Send>(items: Vec<T>, f: impl Fn(T) + Sync + Send) {
     use rayon::prelude::*;
-    if n_threads() == 1 { items.into_iter().for_each(f) } else { items.into_par_iter().for_each(f) }
+    if n_threads() == 1 {
+        return items.into_iter().for_each(f);
+    }
+    let piece = items.len().div_ceil(PIECES).max(1);
+    items.into_par_iter().with_max_len(piece).for_each(f);
 }
 
 /// Applies `f` to all items.
@@ -215,6 +231,11 @@ pub(crate) fn cut<T>(items: &mut [T], lengths: impl Iterator<Item = usize>) -> V
     lengths.map(&mut part).collect()
 }
 
+/// Zeros, whose memory is touched for the first time by all threads.
+pub(crate) fn zeros<T: Copy + Default + Send>(n: usize) -> Vec<T> {
+    if n_threads() == 1 { vec![T::default(); n] } else { map_light(n, |_| T::default()) }
+}
+
 /// Calls `f` with 0..n in any order.
 pub(crate) fn for_each(n: usize, f: impl Fn(usize) + Sync + Send) {
     // A list of nothing takes no memory.
@@ -224,13 +245,16 @@ pub(crate) fn for_each(n: usize, f: impl Fn(usize) + Sync + Send) {
 /// Applies `f` to chunks of some items, each with the place that it begins at.
 pub(crate) fn each_chunk<T: Send>(items: &mut [T], f: impl Fn(usize, &mut [T]) + Sync + Send) {
     const SIZE: usize = 1 << 14;
+    if items.len() <= SIZE {
+        return f(0, items);
+    }
     let chunks = (0..).step_by(SIZE).zip(items.chunks_mut(SIZE));
     each(chunks.collect(), |(begin, chunk)| f(begin, chunk));
 }
 
 /// The items of some lists, list after list.
 pub(crate) fn concat<T: Copy + Default + Send + Sync>(lists: &[Vec<T>]) -> Vec<T> {
-    let mut all = vec![T::default(); lists.iter().map(Vec::len).sum()];
+    let mut all = zeros(lists.iter().map(Vec::len).sum());
     let parts = cut(&mut all, lists.iter().map(Vec::len));
     each(parts.into_iter().zip(lists).collect(), |(part, list)| part.copy_from_slice(list));
     all

@@ -101,36 +101,16 @@ impl Subdivision {
     /// holds these cycles in sweep order of the first vertices, `around` a half-edge of the face around each. That
     /// is of a component that comes before it in the sweep: parents are settled first.
     pub(crate) fn nested(cycles: Cycles, outer: &[u32], around: &[Option<u32>]) -> Self {
-        const UNSET: u32 = u32::MAX;
-        let mut face_of = vec![UNSET; cycles.list.len()];
-        outer.iter().for_each(|&cycle| face_of[cycle as usize] = 0);
-        let mut n_faces = 1;
-        for face in face_of.iter_mut().filter(|face| **face == UNSET) {
-            *face = n_faces;
-            n_faces += 1;
-        }
-        let mut n_cycles = vec![1; n_faces as usize];
-        n_cycles[0] = 0;
-        for (&cycle, &around) in outer.iter().zip(around) {
+        let (mut face_of, outlines) = outlines(cycles.list.len(), outer);
+        let mut holes: Vec<(u32, u32)> = Vec::with_capacity(outer.len());
+        for (&cycle, around) in outer.iter().zip(around) {
             let face = around.map_or(0, |h| face_of[cycles.of[h as usize] as usize]);
             face_of[cycle as usize] = face;
-            n_cycles[face as usize] += 1;
+            holes.push((face, cycle));
         }
-        let mut offsets = vec![0];
-        for n in n_cycles {
-            offsets.push(offsets[offsets.len() - 1] + n);
-        }
-        let mut fill = offsets.clone();
-        let mut cycles_of_face = vec![0; cycles.list.len()];
-        let mut is_hole = vec![false; cycles.list.len()];
-        outer.iter().for_each(|&cycle| is_hole[cycle as usize] = true);
-        let outlines = (0..cycles.list.len() as u32).filter(|&cycle| !is_hole[cycle as usize]);
-        for cycle in outlines.chain(outer.iter().copied()) {
-            let at = &mut fill[face_of[cycle as usize] as usize];
-            cycles_of_face[*at as usize] = cycle;
-            *at += 1;
-        }
-        let cycles_of_face = Cells::from_parts(offsets, cycles_of_face);
+        // Those of a face stay in sweep order.
+        holes.sort_by_key(|&(face, _)| face);
+        let cycles_of_face = with_holes(outlines, &holes);
         Self { cycles, face_of, cycles_of_face, n_components: outer.len() }
     }
 
@@ -144,21 +124,52 @@ impl Subdivision {
         &self.cycles.list[cycle as usize]
     }
 
-    /// Whether a half-edge has another face on its right. Sides in one face are in one of its cycles: the edge joins
-    /// what is on both its ends.
-    pub(crate) fn is_boundary(&self, half_edge: u32) -> bool {
-        self.cycles.of[half_edge as usize] != self.cycles.of[(half_edge ^ 1) as usize]
-    }
-
-    /// The edges with one face on both sides.
-    pub(crate) fn dangling_edges(&self) -> Vec<u32> {
-        parallel::select(self.cycles.of.len() / 2, |edge| !self.is_boundary(2 * edge))
-    }
-
     /// The face on the left of a half-edge.
     pub(crate) fn face(&self, half_edge: u32) -> u32 {
         self.face_of[self.cycles.of[half_edge as usize] as usize]
     }
+}
+
+/// The face of each of n cycles, from 1 on, and the cycles by face. Some cycles are no outlines of faces: they have face 0,
+/// and leave room at the end.
+fn outlines(n: usize, others: &[u32]) -> (Vec<u32>, Vec<u32>) {
+    const OTHER: u32 = u32::MAX;
+    let (mut face_of, mut outlines) = (parallel::zeros(n), parallel::zeros(n));
+    others.iter().for_each(|&cycle| face_of[cycle as usize] = OTHER);
+    let mut n_outlines = 0;
+    for (face, cycle) in face_of.iter_mut().zip(0..) {
+        if *face == OTHER {
+            *face = 0;
+        } else {
+            outlines[n_outlines] = cycle;
+            n_outlines += 1;
+            *face = n_outlines as u32;
+        }
+    }
+    (face_of, outlines)
+}
+
+/// The cycles of each face, the outline first, in place of the outlines, behind which there is room for the holes: cycles
+/// with their faces, by face. Filled from the back.
+fn with_holes(outlines: Vec<u32>, holes: &[(u32, u32)]) -> Cells {
+    let mut cycles = outlines;
+    let n_faces = cycles.len() + 1 - holes.len();
+    let mut offsets = parallel::zeros(n_faces + 1);
+    let (mut end, mut n_holes) = (cycles.len(), holes.len());
+    offsets[n_faces] = end as u32;
+    for face in (0..n_faces).rev() {
+        while n_holes > 0 && holes[n_holes - 1].0 as usize == face {
+            n_holes -= 1;
+            end -= 1;
+            cycles[end] = holes[n_holes].1;
+        }
+        if face > 0 {
+            end -= 1;
+            cycles[end] = cycles[face - 1];
+        }
+        offsets[face] = end as u32;
+    }
+    Cells::from_parts(offsets, cycles)
 }
 
 /// The half-edges that leave each vertex.

@@ -5,7 +5,7 @@ use crate::error::ArrangementError;
 use crate::grid::Grid;
 use crate::parallel::{self, Team};
 use crate::planar::assemble::assemble;
-use crate::planar::bundles::sample_first;
+use crate::planar::bundles::{Bundles, sample_first};
 use crate::planar::carriers::Carriers;
 use crate::planar::chains::Chains;
 use crate::planar::crossings::{Crossings, crossings};
@@ -13,7 +13,7 @@ use crate::planar::edges::Edges;
 use crate::planar::faces::Embedding;
 use crate::planar::input::Drawing;
 use crate::planar::points::unify;
-use crate::planar::positions::{lengths, positions};
+use crate::planar::positions::positions;
 use crate::planar::result::PlanarArrangement;
 use crate::progress::{Cancel, Control, Course, Plan, Progress};
 use crate::stats::Stats;
@@ -144,9 +144,9 @@ impl<'a> PlanarArranger<'a> {
         let (grid, carriers) = team.work(drawing.n_segments(), || on_grid(drawing))??;
         course.begin("crossings", &mut stats)?;
         let n = carriers.ends.len();
-        let tree = team
-            .work(n, || BoxTree::over(sample_first(&Vec::from_iter(0..n as u32)), |c| carriers.box_of(c)))?;
-        let found = crossings(&carriers, &tree, &course, &team)?;
+        let tree = || BoxTree::over(sample_first(&Vec::from_iter(0..n as u32)), |c| carriers.box_of(c));
+        let (tree, bundles) = team.work(n, || parallel::join(tree, || Bundles::of_fans(&carriers)))?;
+        let found = crossings(&carriers, &tree, bundles, &course, &team)?;
         stats.pairs_tested = found.pairs_tested;
         stats.pairs_crossing = found.crossings.len() as u64;
         let n_edges = n + 2 * found.crossings.len();
@@ -171,8 +171,7 @@ impl<'a> PlanarArranger<'a> {
         course.begin("chains", stats)?;
         let chains = Chains::new(&carriers, found, course)?;
         course.begin("cycles", stats)?;
-        let (positions, (edges, cycles, component_of)) =
-            parallel::join(|| positions(&carriers, &chains), || self.cycles(&carriers, &chains));
+        let (edges, cycles, component_of, positions) = self.cycles(&carriers, &chains);
         course.begin("faces", stats)?;
         let embedding = Embedding {
             carriers: &carriers,
@@ -185,7 +184,6 @@ impl<'a> PlanarArranger<'a> {
         drop((tree, component_of));
         course.begin("complex", stats)?;
         stats.grid_step = grid.step();
-        let positions = lengths(&grid, &carriers, &chains, positions);
         Ok(assemble(positions, edges, subdivision, chains, carriers, grid))
     }
 
@@ -203,21 +201,23 @@ impl<'a> PlanarArranger<'a> {
         Ok(out)
     }
 
-    /// The edges that are kept, the cycles round their faces, and the component of each of their runs.
-    fn cycles(&self, carriers: &Carriers, chains: &Chains) -> (Edges, Cycles, Vec<u32>) {
+    /// The edges that are kept, the cycles round their faces, the component of each of their runs, and the positions of
+    /// the vertices.
+    fn cycles(&self, carriers: &Carriers, chains: &Chains) -> (Edges, Cycles, Vec<u32>, Vec<[f64; 2]>) {
         let n_vertices = chains.vertices.len();
         let edges = Edges::new(chains, |_| true);
-        let (cycles, component_of) = edges.cycles(carriers, n_vertices);
+        let (cycles, component_of, positions) =
+            edges.cycles(carriers, n_vertices, || positions(carriers, chains));
         match self.dangling {
             Dangling::Drop => match edges.without_dangling(chains, &cycles) {
                 Some(edges) => {
                     drop((cycles, component_of));
-                    let (cycles, component_of) = edges.cycles(carriers, n_vertices);
-                    (edges, cycles, component_of)
+                    let (cycles, component_of, ()) = edges.cycles(carriers, n_vertices, || ());
+                    (edges, cycles, component_of, positions)
                 }
-                None => (edges, cycles, component_of),
+                None => (edges, cycles, component_of, positions),
             },
-            Dangling::Keep => (edges, cycles, component_of),
+            Dangling::Keep => (edges, cycles, component_of, positions),
         }
     }
 }

@@ -1,51 +1,60 @@
 //! Planar stage 5: the chain complex from edges and faces.
 
-use crate::counting::offsets;
+use crate::boxes::bits_of;
+use crate::counting::offsets_of;
 use crate::grid::Grid;
 use crate::operators::boundary_1;
 use crate::parallel;
 use crate::planar::carriers::Carriers;
 use crate::planar::chains::Chains;
 use crate::planar::edges::Edges;
+use crate::planar::positions::lengths;
 use crate::planar::result::PlanarArrangement;
 use crate::stats::Stats;
 use crate::subdivision::Subdivision;
 use crate::winding::Windings;
 use lar_core::{Cells, ChainComplex, Points};
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
-/// `positions` are those of all vertices of the chains; vertices without edges are left out.
+/// `positions` are those of all vertices of the chains, in grid steps; vertices without edges are left out.
 pub(crate) fn assemble(
-    mut positions: Vec<[f64; 2]>,
+    positions: Vec<[f64; 2]>,
     mut edges: Edges,
     subdivision: Subdivision,
     mut chains: Chains,
     carriers: Carriers,
     grid: Grid,
 ) -> PlanarArrangement {
-    let mut sources = std::mem::take(&mut chains.vertices);
-    if edges.ends.len() < chains.n_edges() {
-        let is_used = edges.number_vertices(positions.len());
-        retain(&mut positions, &is_used);
-        retain(&mut sources, &is_used);
-    }
     let n_components = subdivision.n_components;
-    let points = Points::from_columns(2, positions.into_flattened());
-    let faces = Faces::new(&edges.ends, subdivision);
+    let (n_edges, n_vertices) = (edges.ends.len(), positions.len());
+    let Faces { loops, face_loops, columns, signs } = Faces::new(&edges.ends, subdivision);
+    let is_used = (n_edges < chains.n_edges()).then(|| edges.number_vertices(n_vertices));
     let Edges { mut ends, edge_at, runs, run_of: mut carrier_of } = edges;
-    let n_edges = ends.len();
-    parallel::each_chunk(&mut carrier_of, |_, part| {
-        part.iter_mut().for_each(|run| *run = runs[*run as usize].carrier);
-    });
-    parallel::each_chunk(&mut ends, |_, part| part.iter_mut().for_each(|ends| ends.sort_unstable()));
-    let (boundary_1, boundary_2) = parallel::join(
-        || boundary_1(points.len(), ends),
-        || ChainComplex::operator_from_columns(n_edges, faces.columns, faces.signs),
+    // To check ∂2 keeps one thread busy for long.
+    let (boundary_2, (boundary_1, points)) = parallel::join(
+        || ChainComplex::operator_from_columns(n_edges, columns, signs),
+        || {
+            let mut positions = lengths(&grid, &carriers, &chains, positions);
+            if let Some(is_used) = &is_used {
+                retain(&mut positions, is_used);
+            }
+            let points = Points::from_columns(2, positions.into_flattened());
+            parallel::each_chunk(&mut carrier_of, |_, part| {
+                part.iter_mut().for_each(|run| *run = runs[*run as usize].carrier);
+            });
+            parallel::each_chunk(&mut ends, |_, part| part.iter_mut().for_each(|ends| ends.sort_unstable()));
+            (boundary_1(points.len(), ends), points)
+        },
     );
+    let mut sources = std::mem::take(&mut chains.vertices);
+    if let Some(is_used) = &is_used {
+        retain(&mut sources, is_used);
+    }
     PlanarArrangement {
         complex: ChainComplex::new(points, vec![boundary_1, boundary_2]),
-        loops: faces.loops,
-        face_loops: faces.face_loops,
+        loops,
+        face_loops,
         n_components,
         carriers,
         chains,
@@ -98,101 +107,149 @@ const CHUNK: usize = 4096;
 impl Faces {
     /// The lengths of all loops and columns first, then all of them in their places.
     fn new(ends: &[[u32; 2]], subdivision: Subdivision) -> Self {
-        let lengths = subdivision.cycles_of_face.indices().iter().map(|&c| subdivision.cycle(c).len() as u32);
-        let loops = offsets(lengths);
-        let face_loops = subdivision.cycles_of_face.offsets();
-        let n_faces = subdivision.n_faces();
-        let columns = columns(&subdivision, &loops);
-        let turned = Turned::new(ends);
-        let mut half_edges = vec![0; loops[loops.len() - 1] as usize];
-        let mut rows = vec![0; columns[n_faces] as usize];
-        let mut signs = vec![0; rows.len()];
+        let loops = Loops::new(ends, &subdivision);
+        let columns = loops.columns(&subdivision);
+        let large = loops.large_columns(&subdivision, &columns);
+        let Subdivision { cycles, cycles_of_face, .. } = subdivision;
+        drop(cycles.of);
+        // In the memory of all cycles, which are no shorter than all columns.
+        let n_faces = columns.len() - 1;
+        let mut rows = cycles.list.into_parts().1;
+        rows.truncate(columns[n_faces] as usize);
+        rows.shrink_to_fit();
+        let mut signs = parallel::zeros(rows.len());
         let (n_chunks, range) = parallel::chunks(n_faces, CHUNK);
-        let begin = |face: usize| loops[face_loops[face] as usize] as usize;
-        let n_half_edges = |chunk| begin(range(chunk).end) - begin(range(chunk).start);
         let n_rows = |chunk| (columns[range(chunk).end] - columns[range(chunk).start]) as usize;
-        let parts = parallel::cut(&mut half_edges, (0..n_chunks).map(n_half_edges)).into_iter();
-        let parts = parts.zip(parallel::cut(&mut rows, (0..n_chunks).map(n_rows)));
+        let parts = parallel::cut(&mut rows, (0..n_chunks).map(n_rows)).into_iter();
         let parts = parts.zip(parallel::cut(&mut signs, (0..n_chunks).map(n_rows)));
-        parallel::each(parts.enumerate().collect(), |(chunk, ((half_edges, rows), signs))| {
-            let mut part = Part { half_edges, rows, signs };
-            range(chunk).for_each(|face| {
-                part.push_face(&turned, &subdivision, face, (columns[face + 1] - columns[face]) as usize);
-            });
+        parallel::each(parts.enumerate().collect(), |(chunk, (mut rows, mut signs))| {
+            for face in range(chunk) {
+                let size = (columns[face + 1] - columns[face]) as usize;
+                let (rows, signs) = (take(&mut rows, size), take(&mut signs, size));
+                match large.iter().find(|(large, _)| *large == face) {
+                    Some((_, column)) => rows.copy_from_slice(column),
+                    None => loops.fill_column(face, rows),
+                }
+                for (h, sign) in rows.iter_mut().zip(signs) {
+                    *sign = if *h % 2 == 0 { 1 } else { -1 };
+                    *h /= 2;
+                }
+            }
         });
-        let (face_loops, _) = subdivision.cycles_of_face.into_parts();
         Self {
-            loops: Cells::from_parts(loops, half_edges),
-            face_loops,
+            loops: Cells::from_parts(loops.offsets, loops.half_edges),
+            face_loops: cycles_of_face.into_parts().0,
             columns: Cells::from_parts(columns, rows),
             signs,
         }
     }
 }
 
-/// Where the columns of ∂2 begin: every edge of a face's loops is in its column once, but for those with the face on
-/// both sides.
-fn columns(subdivision: &Subdivision, loops: &[u32]) -> Vec<u32> {
-    let face_loops = subdivision.cycles_of_face.offsets();
-    let begin = |face: usize| loops[face_loops[face] as usize];
-    let mut lengths = parallel::map_light(subdivision.n_faces(), |face| begin(face + 1) - begin(face));
-    for edge in subdivision.dangling_edges() {
-        lengths[subdivision.face(2 * edge) as usize] -= 2;
-    }
-    offsets(lengths.into_iter())
-}
+/// One bit for each edge: they stay in the processor's cache.
+struct EdgeBits(Vec<u64>);
 
-/// Which edges lead along their carriers from the larger vertex to the smaller: a bit each, which stay in the
-/// processor's cache.
-struct Turned {
-    bits: Vec<u64>,
-    n_edges: usize,
-}
-
-impl Turned {
-    fn new(ends: &[[u32; 2]]) -> Self {
+impl EdgeBits {
+    fn new(n_edges: usize, bit: impl Fn(usize) -> bool + Sync + Send) -> Self {
         let word = |i: usize| {
-            let of_word = &ends[64 * i..(64 * i + 64).min(ends.len())];
-            of_word.iter().rev().fold(0, |bits, [a, b]| bits << 1 | u64::from(a > b))
+            (64 * i..n_edges.min(64 * i + 64))
+                .fold(0, |bits, edge| bits | u64::from(bit(edge)) << (edge % 64))
         };
-        Self { bits: parallel::map_light(ends.len().div_ceil(64), word), n_edges: ends.len() }
+        Self(parallel::map_light(n_edges.div_ceil(64), word))
     }
 
-    /// The half-edge along the edge or back for one along the carrier or back.
-    fn half_edge(&self, h: u32) -> u32 {
-        let edge = h / 2;
-        h ^ (self.bits[edge as usize / 64] >> (edge % 64) & 1) as u32
+    fn of(&self, edge: u32) -> bool {
+        self.0[edge as usize / 64] >> (edge % 64) & 1 != 0
     }
 }
 
-/// What is not yet filled in of the loops of some faces and their columns of ∂2.
-struct Part<'a> {
-    half_edges: &'a mut [u32],
-    rows: &'a mut [u32],
-    signs: &'a mut [i8],
+/// The half-edges of the loops of all faces.
+struct Loops {
+    offsets: Vec<u32>,
+    /// From the smaller vertex of an edge to the larger, or back.
+    half_edges: Vec<u32>,
+    /// Where the loops of each face begin in `half_edges`.
+    begins: Vec<u32>,
+    /// The edges that lead along their carriers from the larger vertex to the smaller.
+    turned: EdgeBits,
+    /// The edges with one face on both sides: what is on both their sides is one cycle, as the edge joins what is on
+    /// both its ends.
+    dangling: EdgeBits,
 }
 
-impl Part<'_> {
-    /// Half-edges lead along the carrier or back; those of a loop lead from the smaller vertex to the larger or back.
-    fn push_face(&mut self, turned: &Turned, subdivision: &Subdivision, face: usize, size: usize) {
-        let cycles = subdivision.cycles_of_face[face].iter().map(|&cycle| subdivision.cycle(cycle));
-        let all = take(&mut self.half_edges, cycles.clone().map(<[u32]>::len).sum());
-        for (to, &h) in all.iter_mut().zip(cycles.clone().flatten()) {
-            *to = turned.half_edge(h);
-        }
-        let column = take(&mut self.rows, size);
+impl Loops {
+    fn new(ends: &[[u32; 2]], subdivision: &Subdivision) -> Self {
+        let turned = EdgeBits::new(ends.len(), |edge| ends[edge][0] > ends[edge][1]);
+        let cycle_of = &subdivision.cycles.of;
+        let dangling = EdgeBits::new(ends.len(), |edge| cycle_of[2 * edge] == cycle_of[2 * edge + 1]);
+        let cycles = subdivision.cycles_of_face.indices();
+        let offsets = offsets_of(cycles.len(), |i| subdivision.cycle(cycles[i]).len() as u32);
+        let mut half_edges = parallel::zeros(offsets[cycles.len()] as usize);
+        let (n_chunks, range) = parallel::chunks(cycles.len(), CHUNK);
+        let length = |chunk| (offsets[range(chunk).end] - offsets[range(chunk).start]) as usize;
+        let parts = parallel::cut(&mut half_edges, (0..n_chunks).map(length));
+        parallel::each(parts.into_iter().enumerate().collect(), |(chunk, part)| {
+            let from = cycles[range(chunk)].iter().flat_map(|&cycle| subdivision.cycle(cycle));
+            part.iter_mut().zip(from).for_each(|(to, &h)| *to = h ^ u32::from(turned.of(h / 2)));
+        });
+        let face_loops = subdivision.cycles_of_face.offsets();
+        let begins = parallel::map_light(face_loops.len(), |face| offsets[face_loops[face] as usize]);
+        Self { offsets, half_edges, begins, turned, dangling }
+    }
+
+    fn of_face(&self, face: usize) -> &[u32] {
+        &self.half_edges[self.begins[face] as usize..self.begins[face + 1] as usize]
+    }
+
+    /// Where the columns of ∂2 begin: every edge of a face's loops is in its column once, but for those with the face on
+    /// both sides.
+    fn columns(&self, subdivision: &Subdivision) -> Vec<u32> {
+        let length = |face: usize| AtomicU32::new(self.begins[face + 1] - self.begins[face]);
+        let lengths = parallel::map_light(subdivision.n_faces(), length);
+        let (n_chunks, range) = parallel::chunks(self.dangling.0.len(), 256);
+        parallel::map(n_chunks, |chunk| {
+            let edges = range(chunk).flat_map(|i| bits_of(self.dangling.0[i]).map(move |bit| 64 * i + bit));
+            // Most come after one of the same face.
+            let (mut last, mut n) = (0, 0);
+            for edge in edges {
+                let face = subdivision.face(2 * edge as u32);
+                if face != last {
+                    lengths[last as usize].fetch_sub(n, Relaxed);
+                    (last, n) = (face, 0);
+                }
+                n += 2;
+            }
+            lengths[last as usize].fetch_sub(n, Relaxed);
+        });
+        offsets_of(lengths.len(), |face| lengths[face].load(Relaxed))
+    }
+
+    /// The columns of faces with a large part of all edges, as half-edges: all edges are looked through for them.
+    fn large_columns(&self, subdivision: &Subdivision, columns: &[u32]) -> Vec<(usize, Vec<u32>)> {
+        const LARGE: u32 = 1 << 12;
+        let n_edges = subdivision.cycles.of.len() as u32 / 2;
+        let is_large = |&face: &usize| columns[face + 1] - columns[face] > LARGE.max(n_edges / 8);
+        let half_edge = |edge: u32, face: u32| {
+            let [left, right] = [2 * edge, 2 * edge + 1].map(|h| subdivision.face(h) == face);
+            (left != right).then(|| (2 * edge + u32::from(right)) ^ u32::from(self.turned.of(edge)))
+        };
+        let column = |face: usize| {
+            let (n_chunks, range) = parallel::chunks(n_edges as usize, 1 << 14);
+            let part = |i| range(i).filter_map(|edge| half_edge(edge as u32, face as u32)).collect();
+            (face, parallel::concat(&parallel::map(n_chunks, part)))
+        };
+        (0..columns.len() - 1).filter(is_large).map(column).collect()
+    }
+
+    /// The half-edges of a face that are no edge's both, ascending.
+    fn fill_column(&self, face: usize, column: &mut [u32]) {
+        let all = self.of_face(face);
         if column.len() == all.len() {
             column.copy_from_slice(all);
         } else {
-            let boundary = all.iter().zip(cycles.flatten()).filter(|(_, h)| subdivision.is_boundary(**h));
-            column.iter_mut().zip(boundary).for_each(|(to, (h, _))| *to = *h);
+            let proper = all.iter().filter(|h| !self.dangling.of(**h / 2));
+            column.iter_mut().zip(proper).for_each(|(to, h)| *to = *h);
         }
-        sort(column, 2 * turned.n_edges);
-        let signs = take(&mut self.signs, column.len());
-        for (h, sign) in column.iter_mut().zip(signs) {
-            *sign = if *h % 2 == 0 { 1 } else { -1 };
-            *h /= 2;
-        }
+        column.sort_unstable();
     }
 }
 
@@ -201,20 +258,4 @@ fn take<'a, T>(rest: &mut &'a mut [T], length: usize) -> &'a mut [T] {
     let (taken, after) = std::mem::take(rest).split_at_mut(length);
     *rest = after;
     taken
-}
-
-/// Sorts distinct numbers below n. Of a large part of them, which only few faces have, it marks each.
-fn sort(numbers: &mut [u32], n: usize) {
-    if numbers.len() < 1024 || numbers.len() < n / 64 {
-        return numbers.sort_unstable();
-    }
-    let mut marks = vec![0u64; n.div_ceil(64)];
-    numbers.iter().for_each(|&x| marks[x as usize / 64] |= 1 << (x % 64));
-    let mut next = numbers.iter_mut();
-    for (mut mark, begin) in marks.into_iter().zip((0u32..).step_by(64)) {
-        while mark != 0 {
-            *next.next().expect("as many numbers as marks") = begin + mark.trailing_zeros();
-            mark &= mark - 1;
-        }
-    }
 }

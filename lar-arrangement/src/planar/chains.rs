@@ -17,7 +17,7 @@ use std::ops::Range;
 #[derive(Debug, Default)]
 pub(crate) struct Chains {
     /// What each vertex is: a grid point, or a crossing of two carriers.
-    pub vertices: Vec<VertexSource>,
+    pub vertices: Vec<Source>,
     /// Vertices of all carriers, from one end to the other.
     pub chain: Vec<u32>,
     /// Where each carrier begins in `chain`; its edges are the steps of its stretch.
@@ -31,11 +31,20 @@ pub(crate) struct Chains {
 /// No vertex.
 pub(super) const NO_VERTEX: u32 = u32::MAX;
 
+/// A [`VertexSource`] in two numbers: the carriers of a crossing, or twice a grid point.
+pub(crate) type Source = [u32; 2];
+
 /// Where a vertex comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum VertexSource {
     Point(u32),
     Crossing([u32; 2]),
+}
+
+impl From<Source> for VertexSource {
+    fn from([a, b]: Source) -> Self {
+        if a == b { Self::Point(a) } else { Self::Crossing([a, b]) }
+    }
 }
 
 impl Chains {
@@ -90,6 +99,11 @@ impl Chains {
                     members[i].ends.map(|p| place_of[self.vertex_of_point[p as usize] as usize]);
             }
         }
+    }
+
+    /// What a vertex is.
+    pub(crate) fn source(&self, vertex: u32) -> VertexSource {
+        self.vertices[vertex as usize].into()
     }
 
     /// Number of edges of all carriers.

@@ -21,7 +21,7 @@ pub(crate) struct Crossings {
     pub pairs_tested: u64,
 }
 
-/// `tree` holds the boxes of the carriers, a sample of its blocks first. O(n log n + pairs of boxes that meet), where
+/// `tree` holds the boxes of the carriers, a sample of its blocks first, `bundles` those that are known. O(n log n + pairs of boxes that meet), where
 /// pairs of carriers in one large bundle do not count.
 ///
 /// A sample is searched in rounds of growing length, so that bundles are known before most pairs are looked at. A
@@ -29,12 +29,13 @@ pub(crate) struct Crossings {
 pub(crate) fn crossings(
     carriers: &Carriers,
     tree: &BoxTree<2>,
+    bundles: Bundles,
     course: &Course,
     team: &Team,
 ) -> Result<Crossings, ArrangementError> {
     let sample = n_sampled(tree.items().len());
     let quiet = course.quiet();
-    let mut search = Search::new(carriers, team)?;
+    let mut search = Search::new(carriers, bundles, team);
     let mut regrouped = if search.bundles.is_empty() { None } else { Some(search.regrouped(tree.items())?) };
     let (mut begin, mut sampled, mut length) = (0, 0, 1);
     loop {
@@ -70,16 +71,16 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    fn new(carriers: &'a Carriers, team: &'a Team) -> Result<Self, ArrangementError> {
-        Ok(Self {
+    fn new(carriers: &'a Carriers, bundles: Bundles, team: &'a Team) -> Self {
+        Self {
             carriers,
             team,
-            bundles: team.work(carriers.ends.len(), || Bundles::of_fans(carriers))?,
+            bundles,
             out: Crossings::with_stops(carriers),
             crossings: Vec::new(),
             n_vertices: carriers.points.len(),
             pairs_a_block: 0,
-        })
+        }
     }
 
     /// A tree of some carriers that is laid out for the bundles.
@@ -96,9 +97,10 @@ impl<'a> Search<'a> {
         course: &Course,
     ) -> Result<bool, ArrangementError> {
         let (n_blocks, expected) = (blocks.len(), self.pairs_a_block * blocks.len());
+        // A pair takes as long as several of what else is counted.
         let parts = self
             .team
-            .work(expected, || search_blocks(self.carriers, tree, &self.bundles, blocks, course))??;
+            .work(4 * expected, || search_blocks(self.carriers, tree, &self.bundles, blocks, course))??;
         let (pairs_before, vertices_before) = (self.out.pairs_tested, self.n_vertices);
         let mut is_news = false;
         for part in parts {
@@ -135,7 +137,7 @@ fn search_blocks(
     course: &Course,
 ) -> Result<Vec<Part>, Cancelled> {
     let ranges = Ranges::new(carriers.ends.len());
-    let size = (tree.n_blocks() / 256).clamp(8, 64);
+    let size = (blocks.len() / 256).clamp(8, 64);
     let (n_chunks, range) = parallel::chunks(blocks.len(), size);
     course.map(n_chunks, |chunk| {
         let mut found = Found::default();

@@ -1,14 +1,13 @@
 //! Planar stage 4a: the edges along carriers, and the cycles of half-edges round the faces that they bound.
 //!
-//! A *run* is a stretch of edges along one carrier with none left out. The half-edges that leave a vertex are those of
-//! the runs that pass it: forwards ones by slope, then backwards ones by slope, as carriers point right or straight up.
+//! A *run* is a stretch of edges along one carrier with none left out.
 
 use crate::counting::offsets;
 use crate::parallel;
 use crate::planar::carriers::Carriers;
 use crate::planar::chains::Chains;
+use crate::planar::rotation::Rotation;
 use crate::subdivision::Cycles;
-use crate::union_find::UnionFind;
 use std::ops::Range;
 
 pub(crate) const NO_EDGE: u32 = u32::MAX;
@@ -71,9 +70,10 @@ impl Edges {
         let first_edge = offsets(counts.iter().map(|n| n[0]));
         let first_run = offsets(counts.iter().map(|n| n[1]));
         let (n, n_runs) = (first_edge[n_parts] as usize, first_run[n_parts] as usize);
-        let (mut ends, mut run_of) = (vec![[0; 2]; n], vec![0; n]);
-        let mut runs = vec![Run::default(); n_runs];
-        let mut edge_at = vec![NO_EDGE; if n == chains.n_edges() { 0 } else { chains.chain.len() }];
+        let (mut ends, mut run_of) = (parallel::zeros(n), parallel::zeros(n));
+        let mut runs = parallel::zeros(n_runs);
+        let n_places = if n == chains.n_edges() { 0 } else { chains.chain.len() };
+        let mut edge_at = parallel::map_light(n_places, |_| NO_EDGE);
         let n_edges = || counts.iter().map(|n| n[0] as usize);
         let place = |carrier: usize| (chains.offsets[carrier] as usize).min(edge_at.len());
         let n_places: Vec<usize> =
@@ -104,31 +104,26 @@ impl Edges {
         self.ends[run.first_edge as usize][0]
     }
 
-    /// The cycles of half-edges, and the connected component of each run.
-    pub(crate) fn cycles(&self, carriers: &Carriers, n_vertices: usize) -> (Cycles, Vec<u32>) {
-        let star = Star::new(self, carriers, n_vertices);
-        let next = |e: usize| {
-            let (run, [a, b]) = (self.run_of[e], self.ends[e]);
-            [star.clockwise(self, b, run, false), star.clockwise(self, a, run, true)]
-        };
-        let next = parallel::map(self.ends.len(), next).into_flattened();
-        let n_runs = self.runs.len();
-        // Each on one thread; on a single one the star's memory is free before the cycles are made.
-        let (components, cycles) = parallel::join(move || star.components(n_runs), || Cycles::new(next));
-        (cycles, components)
+    /// The edges of a run.
+    pub(super) fn of_run(&self, run: u32) -> Range<usize> {
+        let begin = |run: usize| self.runs.get(run).map_or(self.ends.len(), |run| run.first_edge as usize);
+        begin(run as usize)..begin(run as usize + 1)
     }
 
-    /// Calls `visit` with the vertices that runs pass.
-    fn each_pass(&self, mut visit: impl FnMut(u32, Pass)) {
-        let mut before = None;
-        for (edge, (&[a, b], &run)) in (0..).zip(self.ends.iter().zip(&self.run_of)) {
-            let backwards = if before == Some(run) { BACKWARDS } else { 0 };
-            visit(a, Pass { run, edge: edge | FORWARDS | backwards });
-            if self.run_of.get(edge as usize + 1) != Some(&run) {
-                visit(b, Pass { run, edge: (edge + 1) | BACKWARDS });
-            }
-            before = Some(run);
-        }
+    /// The cycles of half-edges, the connected component of each run, and what `beside` returns: work for other threads
+    /// while one finds the cycles.
+    pub(crate) fn cycles<R: Send>(
+        &self,
+        carriers: &Carriers,
+        n_vertices: usize,
+        beside: impl FnOnce() -> R + Send,
+    ) -> (Cycles, Vec<u32>, R) {
+        let mut rotation = Rotation::new(self, n_vertices);
+        let next = rotation.next(self, carriers);
+        // On a single thread the rotation's memory is free before the cycles are made.
+        let rest = || (rotation.components(self.runs.len()), beside());
+        let ((components, beside), cycles) = parallel::join(rest, || Cycles::new(next));
+        (cycles, components, beside)
     }
 }
 
@@ -197,106 +192,5 @@ impl Part<'_> {
         self.run_of[self.n_edges] = self.first_run + self.n_runs as u32 - 1;
         self.n_edges += 1;
         edge
-    }
-}
-
-/// A run at a vertex.
-#[derive(Clone, Copy, Debug, Default)]
-struct Pass {
-    run: u32,
-    /// The edge that would leave the vertex forwards if the run went on; marked with the sides on which it does. There
-    /// are fewer than 2^30 edges.
-    edge: u32,
-}
-
-const FORWARDS: u32 = 1 << 31;
-const BACKWARDS: u32 = 1 << 30;
-
-impl Pass {
-    /// The half-edge that leaves the vertex forwards or backwards along the run.
-    fn leaves(&self, forwards: bool) -> Option<u32> {
-        let edge = self.edge & (BACKWARDS - 1);
-        if forwards {
-            (self.edge & FORWARDS != 0).then_some(2 * edge)
-        } else {
-            (self.edge & BACKWARDS != 0).then(|| 2 * edge - 1)
-        }
-    }
-}
-
-/// The runs that pass each vertex, by slope.
-struct Star<'a> {
-    carriers: &'a Carriers,
-    offsets: Vec<u32>,
-    passes: Vec<Pass>,
-}
-
-/// So many runs at a vertex are searched one by one.
-const FEW: usize = 8;
-
-impl<'a> Star<'a> {
-    fn new(edges: &Edges, carriers: &'a Carriers, n_vertices: usize) -> Self {
-        let mut offsets = vec![0u32; n_vertices + 1];
-        edges.each_pass(|v, _| offsets[v as usize] += 1);
-        let mut end = 0;
-        for offset in &mut offsets {
-            end += *offset;
-            *offset = end;
-        }
-        // Filled from the back, every offset ends where its passes begin.
-        let mut passes = vec![Pass::default(); end as usize];
-        edges.each_pass(|v, pass| {
-            offsets[v as usize] -= 1;
-            passes[offsets[v as usize] as usize] = pass;
-        });
-        let mut out = Self { carriers, offsets, passes: Vec::new() };
-        let rank = |p: &Pass| out.rank(edges, p.run);
-        parallel::each_stretch(&mut passes, &out.offsets, |at| match at {
-            [a, b] if rank(b) < rank(a) => std::mem::swap(a, b),
-            [_, _] => {}
-            _ => at.sort_unstable_by_key(rank),
-        });
-        out.passes = passes;
-        out
-    }
-
-    fn rank(&self, edges: &Edges, run: u32) -> u32 {
-        self.carriers.rank[edges.runs[run as usize].carrier as usize]
-    }
-
-    fn at(&self, vertex: u32) -> &[Pass] {
-        &self.passes[self.offsets[vertex as usize] as usize..self.offsets[vertex as usize + 1] as usize]
-    }
-
-    /// The half-edge that leaves a vertex first clockwise from that of a run, which leads forwards or backwards.
-    fn clockwise(&self, edges: &Edges, vertex: u32, run: u32, forwards: bool) -> u32 {
-        let passes = self.at(vertex);
-        let last = |passes: &[Pass], forwards| passes.iter().rev().find_map(|p| p.leaves(forwards));
-        if let [p, q] = passes {
-            let other = if p.run == run { q.leaves(!forwards) } else { p.leaves(forwards) };
-            if let Some(half_edge) = other {
-                return half_edge;
-            }
-        }
-        let own = match passes.len() {
-            0..=FEW => passes.iter().position(|p| p.run == run),
-            _ => passes.binary_search_by_key(&self.rank(edges, run), |p| self.rank(edges, p.run)).ok(),
-        };
-        let own = own.expect("a run passes the ends of its edges");
-        last(&passes[..own], forwards)
-            .or_else(|| last(passes, !forwards))
-            .or_else(|| last(&passes[own..], forwards))
-            .expect("the half-edge itself, if there is no other")
-    }
-
-    /// Component of each run.
-    fn components(self, n_runs: usize) -> Vec<u32> {
-        let mut sets = UnionFind::new(n_runs);
-        for range in self.offsets.windows(2) {
-            for w in self.passes[range[0] as usize..range[1] as usize].windows(2) {
-                sets.union(w[0].run, w[1].run);
-            }
-        }
-        sets.labels().0
     }
 }

@@ -1,7 +1,9 @@
-//! Planar stage 4b: faces from the cycles around them. Which component lies in which face is the only question that
+//! Planar stage 4c: faces from the cycles around them. Which component lies in which face is the only question that
 //! needs coordinates.
 
 use crate::boxes::{Aabb, BoxTree};
+use crate::counting::sorted_numbers;
+use crate::grid::BITS;
 use crate::kernel::Int;
 use crate::parallel;
 use crate::planar::along::parameter;
@@ -37,12 +39,32 @@ impl Embedding<'_> {
             1 => vec![None],
             n => course.map(n, |i| self.locate(firsts[i]))?,
         };
-        let mut sweep: Vec<(u32, Option<u32>)> = firsts.into_iter().zip(around).collect();
-        parallel::sort_distinct_by(&mut sweep, |a, b| self.cmp_starts(a.0, b.0));
-        let outer = |&(run, _): &(u32, _)| cycles.of[2 * self.edges.runs[run as usize].first_edge as usize];
-        let outer: Vec<u32> = sweep.iter().map(outer).collect();
-        let around: Vec<Option<u32>> = sweep.iter().map(|(_, around)| *around).collect();
+        let sweep = self.swept(&firsts);
+        let first_edge = |i: usize| self.edges.runs[firsts[sweep[i] as usize] as usize].first_edge;
+        let outer = parallel::map_light(sweep.len(), |i| cycles.of[2 * first_edge(i) as usize]);
+        let around = parallel::map_light(sweep.len(), |i| around[sweep[i] as usize]);
         Ok(Subdivision::nested(cycles, &outer, &around))
+    }
+
+    /// The order of some runs by `cmp_starts`: by narrow strips first.
+    fn swept(&self, runs: &[u32]) -> Vec<u32> {
+        const NUMBER: u32 = 31;
+        let strip = |x: f64| ((x + 2f64.powi(BITS)) * 2f64.powi(31 - BITS)) as u32;
+        let numbers =
+            parallel::map_light(runs.len(), |i| u64::from(strip(self.start_x(runs[i]))) << NUMBER | i as u64);
+        let run = |x: u64| runs[(x as u32 & (u32::MAX >> 1)) as usize];
+        let settle = |sorted: &mut [u64]| {
+            for same in sorted.chunk_by_mut(|a, b| a >> NUMBER == b >> NUMBER).filter(|same| same.len() > 1) {
+                parallel::sort_distinct_by(same, |&a, &b| self.cmp_starts(run(a), run(b)));
+            }
+        };
+        let sorted = sorted_numbers(&numbers, 32 + NUMBER, settle);
+        parallel::map_light(sorted.len(), |i| sorted[i] as u32 & (u32::MAX >> 1))
+    }
+
+    /// The rounded x of the vertex that a run begins at.
+    fn start_x(&self, run: u32) -> f64 {
+        self.positions[self.edges.start(&self.edges.runs[run as usize]) as usize][0]
     }
 
     /// Of each component the run that leaves its first vertex last, counter-clockwise from the left. Carriers point
@@ -50,10 +72,11 @@ impl Embedding<'_> {
     fn first_runs(&self, component_of: &[u32]) -> Vec<u32> {
         let n = component_of.iter().max().map_or(0, |&c| c as usize + 1);
         let mut firsts: Vec<Option<u32>> = vec![None; n];
-        let x = |run: u32| self.positions[self.edges.start(&self.edges.runs[run as usize]) as usize][0];
+        // Looked up by all threads before. Rounding does not change the order of what it leaves different.
+        let x = parallel::map_light(component_of.len(), |run| self.start_x(run as u32) as f32);
         for (&c, run) in component_of.iter().zip(0..) {
             let best = &mut firsts[c as usize];
-            if best.is_none_or(|b| x(run) <= x(b) && self.cmp_starts(run, b).is_lt()) {
+            if best.is_none_or(|b| x[run as usize] <= x[b as usize] && self.cmp_starts(run, b).is_lt()) {
                 *best = Some(run);
             }
         }
@@ -70,7 +93,7 @@ impl Embedding<'_> {
 
     /// x and y times the denominator, and the denominator, which is positive: at most 126 and 84 bits.
     fn exact(&self, vertex: u32) -> ([Int<3>; 2], i128) {
-        exact_vertex(self.carriers, self.chains.vertices[vertex as usize])
+        exact_vertex(self.carriers, self.chains.source(vertex))
     }
 
     fn cmp(&self, a: u32, b: u32, axis: usize) -> Ordering {

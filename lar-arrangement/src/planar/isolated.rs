@@ -1,7 +1,6 @@
 //! Isolated vertices: points of the drawing with no segment, kept on demand.
 
 use crate::operators::boundary_1;
-use crate::planar::chains::VertexSource;
 use crate::planar::location::Location;
 use crate::planar::result::PlanarArrangement;
 use lar_core::{ChainComplex, FaceId, VertexId};
@@ -36,7 +35,7 @@ impl PlanarArrangement {
         let mut points = self.complex().points().clone();
         for (point, face, position) in found {
             self.isolated.push((VertexId(points.len() as u32), face));
-            self.sources.push(VertexSource::Point(point));
+            self.sources.push([point; 2]);
             points.push(&position);
         }
         self.n_components += self.isolated.len();

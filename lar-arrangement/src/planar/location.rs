@@ -83,7 +83,7 @@ impl PlanarArrangement {
     }
 
     fn exact(&self, vertex: u32) -> ([Int<3>; 2], i128) {
-        exact_vertex(&self.carriers, self.sources[vertex as usize])
+        exact_vertex(&self.carriers, self.sources[vertex as usize].into())
     }
 
     /// Order of two vertices along an axis.

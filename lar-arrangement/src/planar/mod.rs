@@ -24,6 +24,7 @@ mod positions;
 mod query;
 mod restrict;
 mod result;
+mod rotation;
 mod slopes;
 
 pub use arranger::{Dangling, Isolated, PlanarArranger, planar_arrangement};

@@ -7,7 +7,7 @@
 use crate::counting::offsets;
 use crate::parallel;
 use crate::planar::carriers::{Carriers, Member};
-use crate::planar::chains::{Chains, NO_VERTEX, Part, VertexSource};
+use crate::planar::chains::{Chains, NO_VERTEX, Part, Source};
 use crate::planar::events::FIRST;
 use crate::union_find::UnionFind;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -135,11 +135,8 @@ impl<'a> Numbering<'a> {
         found
     }
 
-    fn source(&self, v: u32) -> VertexSource {
-        match v.checked_sub(self.n_points) {
-            None => VertexSource::Point(v),
-            Some(crossing) => VertexSource::Crossing(self.crossings[crossing as usize]),
-        }
+    fn source(&self, v: u32) -> Source {
+        v.checked_sub(self.n_points).map_or([v; 2], |crossing| self.crossings[crossing as usize])
     }
 
     /// Fills the chains, the vertices, and the vertices of the grid points.
@@ -148,7 +145,7 @@ impl<'a> Numbering<'a> {
         let begins = offsets(firsts.iter().map(|firsts| firsts.len() as u32));
         let n = self.n_points as usize + self.crossings.len();
         let new = parallel::map_light(n, |_| AtomicU32::new(NO_VERTEX));
-        out.vertices = vec![VertexSource::Point(0); begins[firsts.len()] as usize];
+        out.vertices = parallel::zeros(begins[firsts.len()] as usize);
         let stretches = parallel::cut(&mut out.vertices, firsts.iter().map(Vec::len));
         parallel::each(
             stretches.into_iter().zip(&firsts).zip(&begins).collect(),
@@ -161,7 +158,7 @@ impl<'a> Numbering<'a> {
         );
         drop(firsts);
         let number = |v: u32| new[self.joined.root(v) as usize].load(Relaxed);
-        out.chain = vec![0; self.parts.iter().map(|part| part.chain.len()).sum()];
+        out.chain = parallel::zeros(self.parts.iter().map(|part| part.chain.len()).sum());
         let chains = parallel::cut(&mut out.chain, self.parts.iter().map(|part| part.chain.len()));
         parallel::each(self.parts.iter().zip(chains).collect(), |(part, chain)| {
             chain.iter_mut().zip(&part.chain).for_each(|(to, &v)| *to = number(v & !FIRST));

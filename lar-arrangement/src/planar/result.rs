@@ -2,7 +2,7 @@
 
 use crate::grid::Grid;
 use crate::planar::carriers::{Carriers, Member};
-use crate::planar::chains::{Chains, VertexSource};
+use crate::planar::chains::{Chains, Source};
 use crate::planar::edges::EdgeAt;
 use crate::planar::location::LocationIndex;
 use crate::stats::Stats;
@@ -24,7 +24,7 @@ pub struct PlanarArrangement {
     pub(super) carriers: Carriers,
     pub(super) chains: Chains,
     /// What each vertex is.
-    pub(super) sources: Vec<VertexSource>,
+    pub(super) sources: Vec<Source>,
     pub(super) grid: Grid,
     pub(super) edge_at: EdgeAt,
     /// The index for point location, built when it is first asked for.
