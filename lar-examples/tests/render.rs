@@ -22,7 +22,7 @@ fn has_adapter() -> bool {
 }
 
 /// Options and how many pixels they change at least, against the picture without them.
-const OPTIONS: [(&str, usize); 22] = [
+const OPTIONS: [(&str, usize); 31] = [
     ("--view top", 1000),
     ("--azimuth 30 --elevation 10", 1000),
     ("--eye 5,4,3 --target 0,0,0.5 --up 0,1,0", 1000),
@@ -45,6 +45,15 @@ const OPTIONS: [(&str, usize); 22] = [
     ("--clip z=0.5", 500),
     ("--clip 1,1,0,0.5 --whole-cells", 500),
     ("--background #102030", 5000),
+    ("--hide c7,c1", 500),
+    ("--only c3", 1000),
+    ("--only f5,e2", 1000),
+    ("--select c1", 500),
+    ("--boundary c3", 500),
+    ("--coboundary e7", 500),
+    ("--where A&!B", 500),
+    ("--wrapping c3", 500),
+    ("--measure v0,v5,v9", 50),
 ];
 
 #[test]
@@ -108,6 +117,20 @@ fn drawings_of_the_plane_are_rendered_too() {
     }
 }
 
+/// The pictures of a replay differ, the last is the default; what is measured is told.
+#[test]
+fn what_stands_out_in_the_window_does_in_a_picture() {
+    let place = Place::with_cubes();
+    let wrapped = |picture: &str| drawn(&place, CUBES, "out.svg", &format!("--wrapping c3{picture}"));
+    let pictures = [":0", ":1", ":2", ""].map(wrapped);
+    assert!((0..4).all(|i| (0..i).all(|k| pictures[i] != pictures[k])), "four pictures");
+    assert!(wrapped(":99") == pictures[3], "the last one");
+    let line = "render a.obj -o out.svg --measure v0,v1,v3";
+    let run = place.lar(&line.split(' ').collect::<Vec<_>>());
+    let told: Vec<&str> = run.out.lines().skip(1).filter_map(|line| line.split(' ').next()).collect();
+    assert_eq!((run.code, told), (0, vec!["distance", "distance", "angle"]), "{run:?}");
+}
+
 #[test]
 fn what_is_no_camera_or_plane_is_refused() {
     let place = Place::with_cubes();
@@ -124,6 +147,14 @@ fn what_is_no_camera_or_plane_is_refused() {
         ("--background mauve", "a background is"),
         ("--levels 1,2", "solids, cells, faces, edges"),
         ("--numbers corners", "vertices, edges, faces, cells"),
+        ("--only c9", "there is no c9; there are 2 of that dimension"),
+        ("--boundary x1", "names no cell"),
+        ("--where A+B", "expected an operator"),
+        ("--wrapping f1", "f1 is no cell of space"),
+        ("--wrapping c1:x", "no number of a picture"),
+        ("--measure c1,v1", "c1 is no vertex"),
+        ("--measure v1", "two or three vertices are measured, not 1"),
+        ("--boundary c1 --wrapping c1", "cannot be used with"),
     ] {
         let line = format!("render a.obj -o out.svg {options}");
         let run = place.lar(&line.split_whitespace().collect::<Vec<_>>());

@@ -71,7 +71,7 @@ fn a_scene_is_shown_as_it_is() {
 /// On a dense screen, taken off it and put back.
 #[test]
 fn windows_come_back_on_a_dense_screen() {
-    let Some(session) = Session::scaled(2.0, &example("cubes"), "cubes", &[], &[]) else { return };
+    let Some(session) = Session::scaled(Some(2.0), &example("cubes"), "cubes", &[], &[]) else { return };
     session.check_changes("turning", 20_000, |s| s.drag(1, [300, 400], [420, 360]));
     for act in ["windowunmap", "windowmap", "windowfocus windowmove 0 0"] {
         session.xdotool(&format!("search --name cubes {act}"));
@@ -80,6 +80,30 @@ fn windows_come_back_on_a_dense_screen() {
     session.look();
     session.check_changes("turning again", 20_000, |s| s.drag(1, [300, 400], [200, 380]));
     session.xdotool("mousemove 300 500 key Escape");
+    session.check_closes();
+}
+
+/// Everything grows with the scale of the screen, and is where it is seen.
+#[test]
+fn windows_follow_the_scale_of_the_screen() {
+    let Some(session) = Session::scaled(None, &example("cubes"), "cubes", &[], &[]) else { return };
+    session.check_changes("shrinking the window", 20_000, |s| {
+        s.xdotool("search --name cubes windowsize 560 300")
+    });
+    session.check_changes("a finer screen", 20_000, |s| s.set_dpi("cubes", 144));
+    let picture = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/pictures/scaled.png");
+    check_screen(&session, [640, 300], &picture);
+    session.check_changes("exploding", 5_000, |s| s.drag(1, [876, 121], [920, 121]));
+    session.xdotool("mousemove 300 300 key Escape");
+    session.check_closes();
+}
+
+/// Someone else destroys the window: its surface is lost before the window knows that it is gone.
+#[test]
+fn a_window_that_is_destroyed_ends_the_program_without_an_error() {
+    let Some(session) = Session::start(&example("cubes"), "cubes", &[], &[]) else { return };
+    session.look();
+    session.xdotool("search --name cubes windowclose");
     session.check_closes();
 }
 

@@ -65,7 +65,7 @@ mod with_viewer {
             // What cannot be put into a page is not computed.
             let viewer = ViewerPage::find(self.viewer.as_deref())?;
             let (data, answers) = cells(&self.inputs, |arrangement| answers(&Explored::new(arrangement)))?;
-            let session = self.look.session(data);
+            let session = self.look.session(data)?;
             let shared = self.shared(session, answers.unwrap_or_default())?;
             let page = viewer.with_view(&shared)?;
             atomic_write(&self.output, |file| file.write_all(page.as_bytes()))?;

@@ -59,12 +59,10 @@ pub(crate) fn named(inputs: &[PathBuf]) -> Result<Vec<(String, PathBuf)>, Comman
 }
 
 impl Inputs {
-    /// The names and files of the operands when all are drawings in the plane, else none.
+    /// The operands' names and files.
     #[cfg(feature = "viewer")]
-    pub(crate) fn drawings(&self) -> Result<Vec<(String, PathBuf)>, CommandError> {
-        let is_drawing = |path: &Path| ["svg", "seg"].contains(&crate::plane::extension(path).as_str());
-        let named = named(&self.inputs)?;
-        Ok(if named.iter().all(|(_, path)| is_drawing(path)) { named } else { Vec::new() })
+    pub(crate) fn named(&self) -> Result<Vec<(String, PathBuf)>, CommandError> {
+        named(&self.inputs)
     }
 
     /// Reads all operands.

@@ -7,8 +7,8 @@
 //! lar boolean EXPR INPUT... -o OUT [--json PATH|-] [--fill RULE] [--keep-fragments] [--as-given | --tolerance LENGTH]
 //!           [--merge-coplanar] [--threads N]
 //! lar boolean -e NAME=EXPR... INPUT... -o DIR [--format EXT] …
-//! lar render INPUT... -o OUT.png|.svg [--size WxH] [camera] [look]
-//! lar view INPUT... [camera] [look]
+//! lar render INPUT... -o OUT.png|.svg [--size WxH] [camera] [look] [accent]
+//! lar view INPUT... [camera] [look] [accent]
 //! lar export-html INPUT... -o OUT.html [--title TEXT] [--viewer PAGE.html] [camera] [look]
 //! lar info INPUT [--json PATH|-]
 //! lar measure INPUT... [--density D | NAME=D]... [--json PATH|-] [--as-given | --tolerance LENGTH] [--threads N]
@@ -24,8 +24,9 @@
 //!
 //! *camera*: `--view SIDE`, `--azimuth A --elevation E`, or `--eye X,Y,Z --target X,Y,Z --up X,Y,Z`; `--fov F` or
 //! `--ortho[=HEIGHT]`. *look*: `--explode S | SX,SY,SZ` `--by solids|cells|faces|edges`, `--levels S0,S1,S2,S3`, `--about`,
-//! `--alpha`, `--cells all|solid`, `--draw` and `--numbers vertices,edges,faces,cells`, `--color`, `--exterior`, `--clip`,
-//! `--whole-cells`, `--background`; `lar help render` explains them.
+//! `--alpha`, `--cells all|solid`, `--hide CELL,…`, `--only CELL,…`, `--draw` and `--numbers vertices,edges,faces,cells`, `--color`, `--exterior`, `--clip`,
+//! `--whole-cells`, `--background`; `lar help render` explains them. *accent*: `--select CELL`, `--boundary CELL`, `--coboundary CELL`, `--where EXPR`,
+//! `--wrapping CELL[:PICTURE]`, `--measure VERTEX,VERTEX[,VERTEX]`.
 //!
 //! Exit codes: 0 done, 1 `validate` found something wrong, 2 bad input or usage, 3 no graphics adapter or display, 130
 //! interrupted. An error is one line on the error stream, which also shows a bar when it is a terminal and the work

@@ -1,6 +1,8 @@
 //! `lar render`: the cells of an arrangement in space or in the plane, as a picture.
 
 #[cfg(feature = "viewer")]
+mod accent;
+#[cfg(feature = "viewer")]
 mod direction;
 #[cfg(feature = "viewer")]
 mod draw;
@@ -10,7 +12,9 @@ mod look;
 mod pose;
 
 #[cfg(feature = "viewer")]
-pub(super) use draw::cells;
+pub(super) use accent::Accent;
+#[cfg(feature = "viewer")]
+pub(super) use draw::{cells, cells_of};
 #[cfg(feature = "viewer")]
 pub(super) use look::{Background, Cut, Look};
 #[cfg(feature = "viewer")]
@@ -38,6 +42,8 @@ pub(crate) fn factor(text: &str) -> Option<f32> {
     lar render a.obj b.obj -o section.png --clip x=0.5 --color class --alpha 1 --outline solids\n  \
     lar render a.obj b.obj -o figure.svg --explode 1.5 --color size --background white\n  \
     lar render plan.svg -o plan.png --view top --ortho --numbers faces --alpha 1\n  \
+    lar render a.obj b.obj -o boundary.png --only c1,c2 --boundary c1 --numbers faces\n  \
+    lar render a.obj b.obj -o wrapped.png --wrapping c3:1\n  \
     lar render a.obj b.obj -o same.png --eye 4,-6,3 --target 0,0,0.5   (the camera that lar view copies)")]
 pub(crate) struct Render {
     #[command(flatten)]
@@ -57,6 +63,9 @@ pub(crate) struct Render {
     #[cfg(feature = "viewer")]
     #[command(flatten)]
     look: Look,
+    #[cfg(feature = "viewer")]
+    #[command(flatten)]
+    accent: Accent,
     #[cfg(feature = "viewer")]
     #[command(flatten)]
     cut: Cut,

@@ -3,14 +3,15 @@
 use super::camera::CameraArguments;
 use super::input::Inputs;
 #[cfg(feature = "viewer")]
-use super::picture::Look;
+use super::picture::{Accent, Look};
 use crate::CommandError;
 
-/// A window on the inputs' arrangement.
+/// A window on the inputs' arrangement. Inputs are surfaces in space or drawings in the plane (.svg, .seg).
 #[derive(Debug, clap::Args)]
 #[command(after_help = "F1 in the window lists mouse and keys; files can be dropped on it.\n\nExamples:\n  \
     lar view a.obj b.obj\n  \
     lar view a.obj b.obj --explode 1.5 --color solid --numbers cells\n  \
+    lar view plan.svg --numbers faces\n  \
     lar view Box=a.stl Ball=b.stl --eye 4,-6,3 --target 0,0,0")]
 pub(crate) struct Window {
     #[command(flatten)]
@@ -18,6 +19,9 @@ pub(crate) struct Window {
     #[cfg(feature = "viewer")]
     #[command(flatten)]
     look: Look,
+    #[cfg(feature = "viewer")]
+    #[command(flatten)]
+    accent: Accent,
     #[command(flatten)]
     camera: CameraArguments,
 }
@@ -33,28 +37,25 @@ impl Window {
 #[cfg(feature = "window")]
 mod with_window {
     use super::{CommandError, Window};
-    use crate::bar::Bar;
-    use crate::command::input::{named, read};
-    use crate::exploration::{Explored, cell_data};
+    use crate::command::input::named;
+    use crate::command::picture::{cells, cells_of};
+    use crate::exploration::Explored;
     use lar_arrangement::Arranger;
-    use lar_viewer::{Exhibit, Exploration, Source};
+    use lar_viewer::{Exhibit, Exploration, NoQueries, Queries, Source};
     use std::path::PathBuf;
 
     impl Window {
         pub(crate) fn run(&self) -> Result<(), CommandError> {
-            let operands = self.inputs.read()?;
-            let bar = Bar::new();
-            let report = |progress| bar.show(progress);
-            let arrangement = Arranger::new().progress(&report).arrange(&operands.surfaces)?;
-            drop(bar);
-            let session = self.look.session(cell_data(&arrangement)?);
+            let (data, explored) = cells(&self.inputs, Explored::new)?;
+            let queries = queries(explored);
+            let mut session = self.look.session(data)?;
+            self.accent.apply(&mut session, &*queries)?;
             // Without an eye, the window fits the camera to the size that it has.
             let camera = self.camera.camera(|lens| lens)?;
-            let names = operands.names().into_iter().map(str::to_owned).collect();
-            let files = operands.files.clone();
+            let (names, files): (Vec<String>, Vec<PathBuf>) = self.inputs.named()?.into_iter().unzip();
             lar_viewer::explore(Exploration {
                 session,
-                queries: Box::new(Explored::new(arrangement)),
+                queries,
                 source: Box::new(Files { names, files: files.clone() }),
                 files,
                 camera: self.camera.is_placed().then_some(camera),
@@ -62,6 +63,11 @@ mod with_window {
             })?;
             Ok(())
         }
+    }
+
+    /// What can be asked of an arrangement of space; nothing of one of the plane.
+    fn queries(explored: Option<Explored>) -> Box<dyn Queries> {
+        explored.map_or_else(|| Box::new(NoQueries) as Box<dyn Queries>, |explored| Box::new(explored))
     }
 
     /// Arranges files when they change or are dropped on the window. The first ones keep their names.
@@ -83,10 +89,9 @@ mod with_window {
             } else {
                 named(files)?
             };
-            let surfaces =
-                named.iter().map(|(name, file)| read(name, file)).collect::<Result<Vec<_>, _>>()?;
-            let arrangement = Arranger::new().arrange(&surfaces)?;
-            Ok(Exhibit { data: cell_data(&arrangement)?, queries: Box::new(Explored::new(arrangement)) })
+            let arranged = |surfaces: &[_]| Arranger::new().arrange(surfaces);
+            let (data, explored) = cells_of(named, arranged, Explored::new)?;
+            Ok(Exhibit { data, queries: queries(explored) })
         }
     }
 
@@ -109,6 +114,10 @@ mod with_window {
             std::fs::write(&other, "v 0 0\n").unwrap();
             let error = files.load(&[other]).unwrap_err();
             assert!(error.contains("other.obj") && !error.contains('\n'), "{error}");
+            let drawing = dir.path().join("square.seg");
+            std::fs::write(&drawing, "0 0 1 0\n1 0 1 1\n1 1 0 0\n").unwrap();
+            let plane = files.load(&[drawing]).unwrap();
+            assert_eq!((plane.data.dim(), plane.data.n_cells(2)), (2, 2), "a triangle and the exterior");
         }
     }
 }

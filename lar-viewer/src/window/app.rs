@@ -153,8 +153,9 @@ impl ApplicationHandler<Loaded> for App {
         match event {
             WindowEvent::CloseRequested | WindowEvent::Destroyed => event_loop.exit(),
             WindowEvent::Resized(size) => {
-                painter.resize(size.width, size.height);
+                let resized = painter.resize(size.width, size.height);
                 painter.window().request_redraw();
+                self.close_on_error(event_loop, resized);
             }
             WindowEvent::ScaleFactorChanged { .. } | WindowEvent::Occluded(false) => {
                 painter.window().request_redraw();

@@ -180,9 +180,11 @@ impl Controls {
 
     fn picture(ui: &mut Ui, picture: egui::TextureId) -> Response {
         let central = egui::CentralPanel::no_frame().show(ui, |ui| {
-            let response = ui.allocate_response(ui.available_size(), egui::Sense::click_and_drag());
+            let mut response = ui.allocate_response(ui.available_size(), egui::Sense::click_and_drag());
+            response.rect = whole_pixels(response.rect, ui.ctx().pixels_per_point());
             let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
-            ui.painter().image(picture, response.rect, whole, egui::Color32::WHITE);
+            let painter = ui.painter().with_clip_rect(response.rect);
+            painter.image(picture, response.rect, whole, egui::Color32::WHITE);
             response
         });
         central.inner
@@ -256,6 +258,12 @@ impl Controls {
             Err(error) => error,
         };
     }
+}
+
+/// A rectangle with all of the pixels that it touches: panels end between pixels.
+fn whole_pixels(rect: Rect, pixels_per_point: f32) -> Rect {
+    let pixels = rect * pixels_per_point;
+    Rect::from_min_max(pixels.min.floor(), pixels.max.ceil()) / pixels_per_point
 }
 
 fn section<R>(ui: &mut Ui, title: &str, open: bool, add: impl FnOnce(&mut Ui) -> R) {

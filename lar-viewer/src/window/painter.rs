@@ -13,6 +13,7 @@ use crate::{View, ViewerError};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
+use web_time::Instant;
 use winit::event::WindowEvent;
 use winit::event_loop::OwnedDisplayHandle;
 use winit::window::Window;
@@ -28,6 +29,7 @@ pub(crate) struct Painter {
     shown: egui::TextureId,
     recording: Option<Recording>,
     host: Box<dyn Host>,
+    begun: Instant,
 }
 
 /// What comes after a frame.
@@ -62,9 +64,19 @@ impl Painter {
         let shown = egui_renderer.register_native_texture(device, &first, wgpu::FilterMode::Nearest);
         let egui = egui_state(&window, &picture.renderer.context);
         let size = window.inner_size();
-        let mut painter =
-            Self { window, surface, picture, controls, egui, egui_renderer, shown, recording: None, host };
-        painter.resize(size.width, size.height);
+        let mut painter = Self {
+            window,
+            surface,
+            picture,
+            controls,
+            egui,
+            egui_renderer,
+            shown,
+            recording: None,
+            host,
+            begun: Instant::now(),
+        };
+        painter.resize(size.width, size.height)?;
         Ok(painter)
     }
 
@@ -83,8 +95,8 @@ impl Painter {
     }
 
     /// Follows the size of the window; a window without area is not drawn.
-    pub(crate) fn resize(&mut self, width: u32, height: u32) {
-        self.surface.resize(&self.picture.renderer.context, width, height);
+    pub(crate) fn resize(&mut self, width: u32, height: u32) -> Result<(), ViewerError> {
+        self.surface.resize(&self.picture.renderer.context, width, height)
     }
 
     /// Runs the interface and draws one frame.
@@ -92,7 +104,7 @@ impl Painter {
         if self.surface.is_empty() {
             return Ok(After { close: false, load: Vec::new(), repaint_in: None });
         }
-        let mut input = self.egui.take_egui_input(&self.window);
+        let mut input = self.input();
         let later = split_off_later(&mut input.events);
         let context = self.egui.egui_ctx().clone();
         let mut asked = None;
@@ -114,6 +126,19 @@ impl Painter {
         self.egui.egui_input_mut().events.splice(..0, later);
         let (close, load) = asked.map_or((false, Vec::new()), |asked| (asked.close, asked.load));
         Ok(After { close, load, repaint_in })
+    }
+
+    /// What has happened since the last frame. The size is that of the surface: a window that is gone cannot be asked.
+    fn input(&mut self) -> egui::RawInput {
+        let (context, scale) = (self.egui.egui_ctx().clone(), self.window.scale_factor() as f32);
+        let pixels = [self.surface.config.width, self.surface.config.height].map(|s| s as f32);
+        let size = egui::Vec2::from(pixels) / (context.zoom_factor() * scale);
+        let input = self.egui.egui_input_mut();
+        input.time = Some(self.begun.elapsed().as_secs_f64());
+        input.screen_rect = Some(egui::Rect::from_min_size(egui::Pos2::ZERO, size));
+        input.viewport_id = egui::ViewportId::ROOT;
+        input.viewports.entry(egui::ViewportId::ROOT).or_default().native_pixels_per_point = Some(scale);
+        input.take()
     }
 
     /// Looks up clicks, draws the scene, saves what is to be saved.

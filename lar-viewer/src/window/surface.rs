@@ -7,12 +7,18 @@ use wgpu::CurrentSurfaceTexture;
 use winit::event_loop::OwnedDisplayHandle;
 use winit::window::Window;
 
+/// Frames in a row in which a surface is configured in vain before that is an error: a window that is being closed by someone
+/// else has lost its surface before the message of its end arrives.
+const MOST_FAILURES: u32 = 20;
+
 /// A surface with its configuration.
 pub(crate) struct Surface {
     window: Arc<Window>,
     pub(crate) instance: wgpu::Instance,
     pub(crate) surface: wgpu::Surface<'static>,
     pub(crate) config: wgpu::SurfaceConfiguration,
+    /// How often in a row it could not be configured.
+    failures: u32,
 }
 
 impl Surface {
@@ -39,7 +45,7 @@ impl Surface {
         adapter: &wgpu::Adapter,
     ) -> Result<Self, ViewerError> {
         let config = configuration(&surface, adapter, &window)?;
-        Ok(Self { window, instance, surface, config })
+        Ok(Self { window, instance, surface, config, failures: 0 })
     }
 
     /// Whether there is nothing to draw on: a window that is minimised or has no area.
@@ -48,12 +54,21 @@ impl Surface {
     }
 
     /// Follows the size of the window; without area it stays as it was.
-    pub(crate) fn resize(&mut self, context: &Context, width: u32, height: u32) {
+    pub(crate) fn resize(&mut self, context: &Context, width: u32, height: u32) -> Result<(), ViewerError> {
         let limit = context.limits.max_texture_dimension_2d;
         (self.config.width, self.config.height) = (width.min(limit), height.min(limit));
-        if !self.is_empty() {
-            self.surface.configure(&context.device, &self.config);
+        if self.is_empty() { Ok(()) } else { self.configure(context) }
+    }
+
+    /// Configures the surface. What the driver has against it is an error only when it stays.
+    fn configure(&mut self, context: &Context) -> Result<(), ViewerError> {
+        self.surface.configure(&context.device, &self.config);
+        match context.check() {
+            Ok(()) => self.failures = 0,
+            Err(error) if self.failures == MOST_FAILURES => return Err(error),
+            Err(_) => self.failures += 1,
         }
+        Ok(())
     }
 
     /// The next texture; `None` when this frame is to be skipped. A lost surface is made anew.
@@ -61,20 +76,24 @@ impl Surface {
         &mut self,
         context: &Context,
     ) -> Result<Option<wgpu::SurfaceTexture>, ViewerError> {
-        let remedy = match self.surface.get_current_texture() {
-            CurrentSurfaceTexture::Success(texture) | CurrentSurfaceTexture::Suboptimal(texture) => {
-                return Ok(Some(texture));
+        let remedy = if 0 < self.failures {
+            Remedy::Renew
+        } else {
+            match self.surface.get_current_texture() {
+                CurrentSurfaceTexture::Success(texture) | CurrentSurfaceTexture::Suboptimal(texture) => {
+                    return Ok(Some(texture));
+                }
+                missing => remedy(&missing),
             }
-            missing => remedy(&missing),
         };
         match remedy {
             Remedy::Wait => return Ok(None),
             Remedy::Retry => {}
             Remedy::Report => context.check()?,
-            Remedy::Configure => self.surface.configure(&context.device, &self.config),
+            Remedy::Configure => self.configure(context)?,
             Remedy::Renew => {
                 self.surface = on(&self.instance, &self.window)?;
-                self.surface.configure(&context.device, &self.config);
+                self.configure(context)?;
             }
         }
         self.window.request_redraw();

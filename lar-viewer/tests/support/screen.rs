@@ -7,6 +7,12 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
+use x11rb::connection::Connection;
+use x11rb::protocol::xproto::{
+    AtomEnum, CONFIGURE_NOTIFY_EVENT, ConfigureNotifyEvent, ConnectionExt, EventMask, GetGeometryReply,
+    PropMode,
+};
+use x11rb::wrapper::ConnectionExt as _;
 
 /// Long enough for the software driver to draw a frame in a debug build on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(20);
@@ -46,13 +52,13 @@ impl Session {
         arguments: &[&str],
         files: &[(&str, &str)],
     ) -> Option<Self> {
-        Self::scaled(1.0, program, title, arguments, files)
+        Self::scaled(Some(1.0), program, title, arguments, files)
     }
 
-    /// The same on a screen with this many pixels to a point.
+    /// The same on a screen with this many pixels to a point, or as many as the screen's settings say.
     #[expect(clippy::print_stderr, reason = "a test that cannot run says so")]
     pub(crate) fn scaled(
-        scale: f32,
+        scale: Option<f32>,
         program: &Path,
         title: &str,
         arguments: &[&str],
@@ -75,15 +81,18 @@ impl Session {
         let display = format!(":{}", number.trim());
         let dir = tempfile::tempdir().unwrap();
         files.iter().for_each(|(name, text)| std::fs::write(dir.path().join(name), text).unwrap());
-        let window = Command::new(program)
+        let mut window = Command::new(program);
+        window
             .args(arguments)
             .current_dir(dir.path())
             .env("DISPLAY", &display)
-            .env("WINIT_X11_SCALE_FACTOR", scale.to_string())
             .env("XDG_RUNTIME_DIR", dir.path())
-            .env_remove("WAYLAND_DISPLAY")
-            .spawn()
-            .unwrap();
+            .env_remove("WAYLAND_DISPLAY");
+        match scale {
+            Some(scale) => window.env("WINIT_X11_SCALE_FACTOR", scale.to_string()),
+            None => window.env_remove("WINIT_X11_SCALE_FACTOR"),
+        };
+        let window = window.spawn().unwrap();
         let session = Self { screen, display, window, dir, seen: RefCell::default() };
         session.xdotool(&format!(
             "search --sync --onlyvisible --name {title} windowfocus windowmove 0 0 windowsize 1280 780"
@@ -95,6 +104,39 @@ impl Session {
     pub(crate) fn xdotool(&self, arguments: &str) {
         run(Command::new("xdotool").args(arguments.split_whitespace()).env("DISPLAY", &self.display));
         sleep(Duration::from_millis(100));
+    }
+
+    /// Gives the screen this many dots per inch, 96 of which are one pixel to a point, and tells the window where it is, as window
+    /// managers do: it is then on a screen of another scale.
+    pub(crate) fn set_dpi(&self, title: &str, dpi: u32) {
+        let (connection, screen) = x11rb::connect(Some(&self.display)).unwrap();
+        let (root, window) = (connection.setup().roots[screen].root, self.window_id(title));
+        let set = |of: u32, value: &str| {
+            let (name, kind) = (AtomEnum::RESOURCE_MANAGER, AtomEnum::STRING);
+            let set = connection.change_property8(PropMode::REPLACE, of, name, kind, value.as_bytes());
+            set.unwrap().check().unwrap();
+        };
+        set(root, &format!("Xft.dpi: {dpi}"));
+        // The settings of the screen are read again when this one of the window changes.
+        set(window, "");
+        sleep(Duration::from_secs(1));
+        let GetGeometryReply { width, height, .. } =
+            connection.get_geometry(window).unwrap().reply().unwrap();
+        let placed = ConfigureNotifyEvent {
+            response_type: CONFIGURE_NOTIFY_EVENT,
+            event: window,
+            window,
+            width,
+            height,
+            ..ConfigureNotifyEvent::default()
+        };
+        connection.send_event(false, window, EventMask::STRUCTURE_NOTIFY, placed).unwrap().check().unwrap();
+    }
+
+    fn window_id(&self, title: &str) -> u32 {
+        let search = ["search", "--name", title];
+        let found = Command::new("xdotool").args(search).env("DISPLAY", &self.display).output().unwrap();
+        String::from_utf8(found.stdout).unwrap().trim().parse().expect("one window of this name")
     }
 
     /// What is done reaches the program at once, as if it had been drawing one frame all the time.

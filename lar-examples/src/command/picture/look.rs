@@ -1,7 +1,9 @@
 //! What of a complex is shown, and how: the options that `lar render` and `lar view` share, and what they make of a
 //! session.
 
+use super::accent::cell;
 use super::factor;
+use crate::CommandError;
 use lar_core::Chain;
 use lar_viewer::session::{
     Center, ColorBy, Command, Explode, ExplodeBy, Exterior, LEVEL_NAMES, Session, size_range,
@@ -30,6 +32,12 @@ pub(crate) struct Look {
     /// Which cells are shown.
     #[arg(long, value_enum, value_name = "WHICH", default_value_t)]
     cells: Which,
+    /// Hides these cells: v0, e5, f12, c3.
+    #[arg(long, value_name = "CELL,…", value_delimiter = ',')]
+    hide: Vec<String>,
+    /// Shows these cells alone, with all cells in their boundaries.
+    #[arg(long, value_name = "CELL,…", value_delimiter = ',')]
+    only: Vec<String>,
     /// Dimensions that are drawn: vertices, edges, faces (each as a piece of its own), cells.
     #[arg(long, value_enum, value_name = "DIM,…", value_delimiter = ',', default_values_t = [Dim::Edges, Dim::Cells])]
     draw: Vec<Dim>,
@@ -233,7 +241,10 @@ impl FromStr for Background {
 
 impl Look {
     /// The session that shows a complex like this.
-    pub(crate) fn session(&self, data: CellData) -> Session {
+    ///
+    /// # Errors
+    /// `Usage` when a cell that is named does not exist.
+    pub(crate) fn session(&self, data: CellData) -> Result<Session, CommandError> {
         let mut session = Session::new(data);
         match self.cells {
             Which::All => session.apply(Command::ShowAll),
@@ -263,7 +274,14 @@ impl Look {
         });
         session.opacity = self.alpha;
         session.background = self.background.0;
-        session
+        let named =
+            |names: &[String]| names.iter().map(|name| cell(&session, name)).collect::<Result<Vec<_>, _>>();
+        let (only, hidden) = (named(&self.only)?, named(&self.hide)?);
+        if !only.is_empty() {
+            session.apply(Command::Isolate(only));
+        }
+        session.apply(Command::Hide(hidden));
+        Ok(session)
     }
 
     /// How far the pieces are pulled apart.
