@@ -88,7 +88,7 @@ fn windows_come_back_on_a_dense_screen() {
 fn windows_follow_the_scale_of_the_screen() {
     let Some(session) = Session::scaled(None, &example("cubes"), "cubes", &[], &[]) else { return };
     session.check_changes("shrinking the window", 20_000, |s| {
-        s.xdotool("search --name cubes windowsize 560 300")
+        s.xdotool("search --name cubes windowsize 560 300");
     });
     session.check_changes("a finer screen", 20_000, |s| s.set_dpi("cubes", 144));
     let picture = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/pictures/scaled.png");
