@@ -135,6 +135,23 @@ pub(crate) fn map_light<R: Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send)
     map_pieces(n, n.div_ceil(PIECES).max(WORTH_A_THREAD), f)
 }
 
+/// As `map_light`, the results behind what a list has already.
+#[cfg(feature = "rayon")]
+pub(crate) fn extend_light<R: Send>(list: &mut Vec<R>, n: usize, f: impl Fn(usize) -> R + Sync + Send) {
+    use rayon::prelude::*;
+    if n < WORTH_A_THREAD || n_threads() == 1 {
+        list.extend((0..n).map(f));
+    } else {
+        list.par_extend((0..n).into_par_iter().map(f));
+    }
+}
+
+/// As `map_light`, the results behind what a list has already.
+#[cfg(not(feature = "rayon"))]
+pub(crate) fn extend_light<R>(list: &mut Vec<R>, n: usize, f: impl Fn(usize) -> R) {
+    list.extend((0..n).map(f));
+}
+
 /// As `map_light`, for two results.
 #[cfg(feature = "rayon")]
 pub(crate) fn unzip_light<A: Send, B: Send>(
@@ -265,15 +282,6 @@ pub(crate) fn select(n: usize, keep: impl Fn(u32) -> bool + Sync + Send) -> Vec<
     let (n_chunks, range) = chunks(n, 1 << 14);
     let kept = |i| range(i).map(|x| x as u32).filter(|&x| keep(x)).collect();
     concat(&map(n_chunks, kept))
-}
-
-/// Adds items to a list, which becomes theirs when it was empty.
-pub(crate) fn append<T>(all: &mut Vec<T>, mut more: Vec<T>) {
-    if all.is_empty() {
-        *all = more;
-    } else {
-        all.append(&mut more);
-    }
 }
 
 /// One of as many parts of 0..n as there are threads: for work that is the same however it is divided.

@@ -123,6 +123,7 @@ impl Soup {
             bend: 0.0,
             plane: None,
         };
+        builder.reserve(surfaces.iter().map(Surface::n_faces).sum());
         let mut coefficients = Vec::new();
         for (solid, (surface, point_of)) in surfaces.iter().zip(&point_of).enumerate() {
             let planes = plane_of_face.get(solid).map_or(&[][..], Vec::as_slice);
@@ -432,6 +433,15 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
+    /// Makes room for so many faces: what grows is copied, and touches memory anew.
+    fn reserve(&mut self, n: usize) {
+        self.geometry.reserve_facets(n);
+        self.facets.offsets.reserve(n);
+        self.facets.polygon.reserve(n);
+        self.polygon_flat.reserve(n);
+        self.parents.reserve(n);
+    }
+
     /// The faces of a surface of triangles on the grid.
     fn push_triangles_of(&mut self, solid: usize, corners: &[u32], point_of: &[u32]) {
         let n = corners.len() / 3;

@@ -235,6 +235,12 @@ impl Geometry {
         self.reach == Reach::Grid && self.canonical.planes.is_empty()
     }
 
+    /// Makes room for so many facets.
+    pub(crate) fn reserve_facets(&mut self, n: usize) {
+        self.bases.reserve(n);
+        self.normals.reserve(n);
+    }
+
     /// Adds those of n triangles of grid points, in a scene on the grid, whose points are not collinear, and returns which
     /// these are; `None` for all.
     pub(crate) fn push_grid_facets(
@@ -242,19 +248,24 @@ impl Geometry {
         n: usize,
         base: impl Fn(usize) -> [u32; 3] + Sync + Send,
     ) -> Option<Vec<u32>> {
-        let mut bases = parallel::map_light(n, base);
-        let mut normals = parallel::map_light(n, |i| self.grid_normal(bases[i]));
+        let first = self.bases.len();
+        parallel::extend_light(&mut self.bases, n, base);
+        let mut normals = std::mem::take(&mut self.normals);
+        parallel::extend_light(&mut normals, n, |i| self.grid_normal(self.bases[first + i]));
+        self.normals = normals;
         let is_proper = |normal: &[f64; 3]| *normal != [0.0; 3];
-        let proper = (!normals.iter().all(is_proper)).then(|| {
-            let numbered = (0..n as u32).zip(&normals).filter(|(_, normal)| is_proper(normal));
-            let proper: Vec<u32> = numbered.map(|(i, _)| i).collect();
-            bases = proper.iter().map(|&i| bases[i as usize]).collect();
-            normals.retain(is_proper);
-            proper
-        });
-        parallel::append(&mut self.bases, bases);
-        parallel::append(&mut self.normals, normals);
-        proper
+        if self.normals[first..].iter().all(is_proper) {
+            return None;
+        }
+        let proper: Vec<u32> =
+            (0..n as u32).filter(|&i| is_proper(&self.normals[first + i as usize])).collect();
+        for (to, &from) in (first..).zip(&proper) {
+            self.bases[to] = self.bases[first + from as usize];
+            self.normals[to] = self.normals[first + from as usize];
+        }
+        self.bases.truncate(first + proper.len());
+        self.normals.truncate(first + proper.len());
+        Some(proper)
     }
 
     /// Keeps the facets for which `keep` holds, by their numbers, and numbers them anew.
