@@ -2,6 +2,7 @@
 
 use crate::grid_points::PointTable;
 use crate::kernel::{Geometry, Vertex};
+use crate::parallel;
 use rustc_hash::FxHashMap;
 
 /// All vertices found so far.
@@ -27,6 +28,11 @@ impl Interner {
             grid_points,
             ..Self::default()
         };
+        if geometry.is_on_grid() {
+            parallel::extend_light(&mut interner.vertices, n, |p| geometry.point_vertex(p as u32));
+            interner.next_at.extend(0..n as u32);
+            return interner;
+        }
         for p in 0..n as u32 {
             let vertex = geometry.point_vertex(p);
             if geometry.grid_point(p).is_some() {

@@ -12,6 +12,7 @@ use crate::grid::Grid;
 use crate::grid_points::PointTable;
 use crate::half_edges::{self, HalfEdges, MANY};
 use crate::kernel::{Geometry, Sign};
+use crate::parallel;
 use crate::polygon::{Polygon, Shape};
 use crate::split::offsets;
 use lar_core::{Cells, Surface};
@@ -140,8 +141,10 @@ impl Soup {
         let (edges, directed) = half_edges::edges(geometry.n_points(), facets.half_edges(&geometry));
         let soft = facets.soft_edges(edges.len(), &directed);
         let facet_edges = Cells::from_parts(facets.offsets, directed);
-        let facets_of_edge = half_edges::facets_of_edges(edges.len(), &facet_edges);
-        let (parents, parent_offsets) = by_polygon(polygon_flat.len(), parents);
+        let (facets_of_edge, (parents, parent_offsets)) = parallel::join(
+            || half_edges::facets_of_edges(edges.len(), &facet_edges),
+            || by_polygon(polygon_flat.len(), parents),
+        );
         let soup = Self {
             geometry,
             grid,

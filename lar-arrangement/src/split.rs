@@ -4,6 +4,7 @@
 use crate::crossing::{Contacts, Segment};
 use crate::interner::Interner;
 use crate::kernel::{Along, Sign};
+use crate::parallel;
 use crate::soup::Soup;
 use lar_core::Cells;
 
@@ -40,14 +41,13 @@ impl Cuts {
         let n_facets = soup.n_facets();
         let mut split_edges: Vec<u32> = splits.iter().map(|s| s.0).collect();
         split_edges.dedup();
-        Self {
-            split_edges,
-            inner: sorted_along_edges(soup, &splits, interner),
-            segment_offsets: offsets(n_facets, segments.iter().map(|s| s.facet)),
-            touch_offsets: offsets(n_facets, touches.iter().map(|t| t.0)),
-            segments,
-            touches,
-        }
+        let of_facets = || {
+            let segment_offsets = offsets(n_facets, segments.iter().map(|s| s.facet));
+            (segment_offsets, offsets(n_facets, touches.iter().map(|t| t.0)))
+        };
+        let (inner, (segment_offsets, touch_offsets)) =
+            parallel::join(|| sorted_along_edges(soup, &splits, interner), of_facets);
+        Self { split_edges, inner, segment_offsets, touch_offsets, segments, touches }
     }
 
     /// The facets with segments inside, one after the other, some more than once.
