@@ -130,9 +130,27 @@ pub(crate) fn map<R: Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send) -> Ve
 /// So many small items are worth another thread.
 const WORTH_A_THREAD: usize = 1024;
 
-/// As `map`, for work that takes less time than giving it to a thread.
+/// So many small results of light work are collected at a time: in a loop, not through rayon one by one.
+const BLOCK: usize = 64;
+
+/// As `map`, for work that takes less time than giving it to a thread. What is last may be done several times.
 pub(crate) fn map_light<R: Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send) -> Vec<R> {
-    map_pieces(n, n.div_ceil(PIECES).max(WORTH_A_THREAD), f)
+    if n <= WORTH_A_THREAD || n_threads() == 1 || size_of::<R>() > size_of::<u64>() {
+        return map_pieces(n, n.div_ceil(PIECES).max(WORTH_A_THREAD), f);
+    }
+    let block = |i: usize| -> [R; BLOCK] {
+        let begin = i * BLOCK;
+        if begin + BLOCK <= n {
+            std::array::from_fn(|i| f(begin + i))
+        } else {
+            std::array::from_fn(|i| f((begin + i).min(n - 1)))
+        }
+    };
+    let n_blocks = n.div_ceil(BLOCK);
+    let piece = n_blocks.div_ceil(PIECES).max(WORTH_A_THREAD / BLOCK);
+    let mut all = map_pieces(n_blocks, piece, block).into_flattened();
+    all.truncate(n);
+    all
 }
 
 /// As `map_light`, the results behind what a list has already.
@@ -256,7 +274,7 @@ pub(crate) fn zeros<T: Copy + Default + Send>(n: usize) -> Vec<T> {
 /// Calls `f` with 0..n in any order.
 pub(crate) fn for_each(n: usize, f: impl Fn(usize) + Sync + Send) {
     // A list of nothing takes no memory.
-    map_light(n, f);
+    map_pieces(n, n.div_ceil(PIECES).max(WORTH_A_THREAD), f);
 }
 
 /// Applies `f` to chunks of some items, each with the place that it begins at.

@@ -21,6 +21,7 @@ pub enum Closure {
 /// Winding numbers of all solids in all cells, sparse by cells.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Windings {
+    /// Empty when there are no solids.
     offsets: Vec<u32>,
     /// Solid and winding number (parity for unoriented solids), where it is not zero; sorted by solid.
     entries: Vec<(u32, i32)>,
@@ -117,11 +118,6 @@ impl Walls {
 }
 
 impl Windings {
-    /// No solids.
-    pub(crate) fn of_none(n_cells: usize) -> Self {
-        Self { offsets: vec![0; n_cells + 1], ..Self::default() }
-    }
-
     /// O(walls · parents + entries).
     pub(crate) fn new(n_cells: usize, n_solids: usize, walls: &Walls) -> Self {
         let tree = spanning_tree(n_cells, &walls.cells);
@@ -170,6 +166,9 @@ impl Windings {
 
     /// The solids with a winding number other than zero in a cell.
     pub(crate) fn of_cell(&self, cell: usize) -> &[(u32, i32)] {
+        if self.closure.is_empty() {
+            return &[];
+        }
         &self.entries[self.offsets[cell] as usize..self.offsets[cell + 1] as usize]
     }
 }

@@ -42,7 +42,7 @@ impl PlanarArrangement {
     /// Winding numbers of the drawing's regions, from the jumps at the edges.
     pub(super) fn wind(&mut self, drawing: &Drawing) {
         self.windings = match drawing.regions.len() {
-            0 => Windings::of_none(self.n_faces() + 1),
+            0 => Windings::default(),
             n => Windings::new(self.n_faces() + 1, n, &self.walls(drawing)),
         };
         self.regions.clone_from(&drawing.regions);

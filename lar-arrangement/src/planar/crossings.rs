@@ -100,7 +100,7 @@ impl<'a> Search<'a> {
         // A pair takes as long as several of what else is counted.
         let parts = self
             .team
-            .work(4 * expected, || search_blocks(self.carriers, tree, &self.bundles, blocks, course))??;
+            .work(8 * expected, || search_blocks(self.carriers, tree, &self.bundles, blocks, course))??;
         let (pairs_before, vertices_before) = (self.out.pairs_tested, self.n_vertices);
         let mut is_news = false;
         for part in parts {
