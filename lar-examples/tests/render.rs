@@ -22,7 +22,7 @@ fn has_adapter() -> bool {
 }
 
 /// Options and how many pixels they change at least, against the picture without them.
-const OPTIONS: [(&str, usize); 31] = [
+const OPTIONS: [(&str, usize); 32] = [
     ("--view top", 1000),
     ("--azimuth 30 --elevation 10", 1000),
     ("--eye 5,4,3 --target 0,0,0.5 --up 0,1,0", 1000),
@@ -46,6 +46,7 @@ const OPTIONS: [(&str, usize); 31] = [
     ("--clip 1,1,0,0.5 --whole-cells", 500),
     ("--background #102030", 5000),
     ("--hide c7,c1", 500),
+    ("--alpha-of A=0.2,C=0", 500),
     ("--only c3", 1000),
     ("--only f5,e2", 1000),
     ("--select c1", 500),
@@ -147,6 +148,8 @@ fn what_is_no_camera_or_plane_is_refused() {
         ("--background mauve", "a background is"),
         ("--levels 1,2", "solids, cells, faces, edges"),
         ("--numbers corners", "vertices, edges, faces, cells"),
+        ("--alpha-of Z=0.5", "no input is named Z"),
+        ("--alpha-of A", "an input and its opacity"),
         ("--only c9", "there is no c9; there are 2 of that dimension"),
         ("--boundary x1", "names no cell"),
         ("--where A+B", "expected an operator"),

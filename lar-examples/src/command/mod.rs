@@ -24,7 +24,7 @@
 //!
 //! *camera*: `--view SIDE`, `--azimuth A --elevation E`, or `--eye X,Y,Z --target X,Y,Z --up X,Y,Z`; `--fov F` or
 //! `--ortho[=HEIGHT]`. *look*: `--explode S | SX,SY,SZ` `--by solids|cells|faces|edges`, `--levels S0,S1,S2,S3`, `--about`,
-//! `--alpha`, `--cells all|solid`, `--hide CELL,…`, `--only CELL,…`, `--draw` and `--numbers vertices,edges,faces,cells`, `--color`, `--exterior`, `--clip`,
+//! `--alpha`, `--alpha-of NAME=A,…`, `--cells all|solid`, `--hide CELL,…`, `--only CELL,…`, `--draw` and `--numbers vertices,edges,faces,cells`, `--color`, `--exterior`, `--clip`,
 //! `--whole-cells`, `--background`; `lar help render` explains them. *accent*: `--select CELL`, `--boundary CELL`, `--coboundary CELL`, `--where EXPR`,
 //! `--wrapping CELL[:PICTURE]`, `--measure VERTEX,VERTEX[,VERTEX]`.
 //!

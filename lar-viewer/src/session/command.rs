@@ -31,6 +31,9 @@ pub enum Command {
     Isolate(Vec<CellRef>),
     /// Shows everything.
     ShowAll,
+    /// Multiplies the opacity of a solid's cells, those that it is the first to contain; a step to be undone once it rests, as
+    /// with [`Session::opacity`].
+    SetOpacity(u32, f32),
     /// Takes the last change of what is visible back: cells, dimensions, exterior, numbers, clip plane, opacity, outline.
     Undo,
     /// Makes it again.
@@ -72,6 +75,7 @@ impl Session {
                 self.change_visibility(command);
                 self.settle();
             }
+            Command::SetOpacity(solid, opacity) => self.visibility.set_opacity_of(solid, opacity),
             Command::Undo => self.travel(History::undo),
             Command::Redo => self.travel(History::redo),
             Command::Select(cell) => self.select(cell),

@@ -137,6 +137,9 @@ impl Session {
         let mut next = Self::new(data);
         next.visibility.layers = self.visibility.layers;
         next.visibility.exterior = self.visibility.exterior;
+        for solid in 0..next.data.solids().len() as u32 {
+            next.visibility.set_opacity_of(solid, self.visibility.opacity_of(solid));
+        }
         next.selected = self.selected.filter(|&c| next.data.contains(c));
         Self {
             numbers: self.numbers,

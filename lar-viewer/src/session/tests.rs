@@ -124,6 +124,31 @@ fn a_vertex_alone_is_a_dot_whatever_layers_there_are() {
     assert_eq!(dots, 3 * 24 - 3 * of_cells);
 }
 
+/// A solid that is made transparent: its cells, not those that another contains first; it can be undone, and outlives a reload.
+#[test]
+fn solids_have_an_opacity_of_their_own() {
+    let mut session = session();
+    session.opacity = 0.8;
+    session.forget_past();
+    let opacities = |session: &Session| {
+        let scene = scene(session);
+        let cells = scene.drawables().iter().filter(|d| ["c1", "c2"].contains(&d.name()));
+        cells.map(|d| d.appearance().opacity).collect::<Vec<_>>()
+    };
+    session.apply(Command::SetOpacity(1, 0.5));
+    assert_eq!(opacities(&session), [0.8, 0.8], "both are in A first");
+    session.settle();
+    session.apply(Command::SetOpacity(0, 0.5));
+    session.settle();
+    assert_eq!(opacities(&session), [0.4, 0.4]);
+    let again = session.with_data(session.data().clone());
+    assert_eq!(again.visibility().opacity_of(0), 0.5);
+    session.apply(Command::Undo);
+    assert_eq!(opacities(&session), [0.8, 0.8]);
+    session.apply(Command::SetOpacity(7, f32::NAN));
+    assert_eq!(session.visibility().opacity_of(7), 1.0);
+}
+
 /// Everything that says what is visible, one step each; a slider that moves for a while is one step.
 #[test]
 fn all_of_what_is_visible_can_be_undone() {

@@ -2,7 +2,7 @@
 
 use crate::{CellData, CellRef};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// Sets of cells, one for each dimension. Copies share what they have in common, so that a history of them is cheap.
@@ -93,6 +93,9 @@ pub struct Visibility {
     hidden: CellSets,
     /// The cells that are shown alone, with all cells in their boundaries.
     isolated: Option<CellSets>,
+    /// What the opacity of cells is multiplied by, for single solids.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    opacities: BTreeMap<u32, f32>,
 }
 
 impl Default for Visibility {
@@ -103,6 +106,7 @@ impl Default for Visibility {
             exterior: Exterior::default(),
             hidden: CellSets::default(),
             isolated: None,
+            opacities: BTreeMap::new(),
         }
     }
 }
@@ -112,6 +116,21 @@ impl Visibility {
     #[must_use]
     pub fn shows(&self, cell: CellRef) -> bool {
         !self.hidden.contains(cell) && self.isolated.as_ref().is_none_or(|alone| alone.contains(cell))
+    }
+
+    /// What the opacity of the cells of a solid is multiplied by: of those that it is the first to contain.
+    #[must_use]
+    pub fn opacity_of(&self, solid: u32) -> f32 {
+        self.opacities.get(&solid).map_or(1.0, |opacity| opacity.clamp(0.0, 1.0))
+    }
+
+    pub(super) fn set_opacity_of(&mut self, solid: u32, opacity: f32) {
+        // What is nothing special is not remembered, so that equal states are equal.
+        if (0.0..1.0).contains(&opacity) {
+            self.opacities.insert(solid, opacity);
+        } else {
+            self.opacities.remove(&solid);
+        }
     }
 
     /// Whether every cell is shown.

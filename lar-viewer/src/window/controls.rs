@@ -173,6 +173,11 @@ impl Controls {
                 section(ui, "Boolean, gift wrapping", true, |ui| {
                     commands.extend(panels::algebra(ui, session, queries, texts));
                 });
+                if !session.data().solids().is_empty() {
+                    section(ui, "Opacity of solids", false, |ui| {
+                        commands.extend(panels::solids(ui, session))
+                    });
+                }
             });
         });
         commands

@@ -29,6 +29,9 @@ pub(crate) struct Look {
     /// Opacity of the cells, from 0 to 1.
     #[arg(long, value_name = "A", default_value = "0.6", value_parser = alpha, allow_hyphen_values = true)]
     alpha: f32,
+    /// Multiplies the opacity of single inputs: of the cells that they are the first to contain.
+    #[arg(long, value_name = "NAME=A,…", value_parser = alpha_of, value_delimiter = ',')]
+    alpha_of: Vec<(String, f32)>,
     /// Which cells are shown.
     #[arg(long, value_enum, value_name = "WHICH", default_value_t)]
     cells: Which,
@@ -180,6 +183,11 @@ fn alpha(text: &str) -> Result<f32, &'static str> {
     value.ok_or("an opacity lies between 0 and 1")
 }
 
+fn alpha_of(text: &str) -> Result<(String, f32), &'static str> {
+    let (name, opacity) = text.rsplit_once('=').ok_or("an input and its opacity, such as A=0.5")?;
+    Ok((name.to_owned(), alpha(opacity)?))
+}
+
 /// The half space that a clip plane takes away.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Plane(Clip);
@@ -281,6 +289,11 @@ impl Look {
             session.apply(Command::Isolate(only));
         }
         session.apply(Command::Hide(hidden));
+        for (name, opacity) in &self.alpha_of {
+            let solid = session.data().solids().iter().position(|solid| solid == name);
+            let solid = solid.ok_or_else(|| CommandError::Usage(format!("no input is named {name}")))?;
+            session.apply(Command::SetOpacity(solid as u32, *opacity));
+        }
         Ok(session)
     }
 

@@ -25,7 +25,11 @@ pub(super) fn looks(drawables: &[Drawable], roles: &[(Kind, Place)], session: &S
         let colored = face.map_or(place.unit, |index| CellRef { dim: 2, index });
         let (color, opacity) = match kind {
             Kind::Fill if data.is_exterior(place.unit) => (WHITE, exterior_opacity(session)),
-            Kind::Fill => (colors[usize::from(colored.dim)][colored.index as usize], session.opacity),
+            Kind::Fill => {
+                let solid = data.solids_of(place.unit).first();
+                let own = solid.map_or(1.0, |&s| session.visibility().opacity_of(s));
+                (colors[usize::from(colored.dim)][colored.index as usize], session.opacity * own)
+            }
             Kind::Edges | Kind::Dots if is_dark(session.background) => (PALE, 1.0),
             Kind::Edges | Kind::Dots => (own.color, 1.0),
         };

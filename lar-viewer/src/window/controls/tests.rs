@@ -276,6 +276,20 @@ fn visibility_is_hidden_isolated_and_undone() {
     assert!(session(&window).visibility().layers[0]);
 }
 
+#[test]
+fn one_solid_is_made_transparent() {
+    let mut window = complex_window();
+    click(&mut window, "Opacity of solids");
+    let slider = window.get_by_role_and_label(egui::accesskit::Role::Slider, "opacity of B").rect();
+    drag(&mut window, PointerButton::Primary, slider.right_center() - vec2(6.0, 0.0), vec2(-40.0, 0.0));
+    window.run_ok();
+    let opacity = |window: &Window| [0, 1].map(|solid| session(window).visibility().opacity_of(solid));
+    let [a, b] = opacity(&window);
+    assert!(a == 1.0 && (0.3..0.8).contains(&b), "{a} {b}");
+    click(&mut window, "Undo");
+    assert_eq!(opacity(&window), [1.0; 2]);
+}
+
 /// A slider that is dragged makes one step of it, and so does a choice in a list.
 #[test]
 fn clip_plane_opacity_and_outline_are_undone_too() {

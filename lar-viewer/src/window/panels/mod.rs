@@ -14,7 +14,7 @@ pub(crate) use explode::{explode, explode_plain};
 pub(crate) use help::help;
 pub(crate) use inspector::inspector;
 pub(crate) use section::section;
-pub(crate) use show::{show, show_plain};
+pub(crate) use show::{show, show_plain, solids};
 pub(crate) use toolbar::{Capture, Tools, toolbar};
 pub(crate) use tree::tree;
 

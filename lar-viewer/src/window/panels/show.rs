@@ -58,6 +58,21 @@ pub(crate) fn show(ui: &mut Ui, session: &mut Session) -> Vec<Command> {
     commands
 }
 
+/// Solids whose opacity can be set for themselves, at most.
+const MOST_SOLIDS: usize = 100;
+
+/// The opacity of each solid.
+pub(crate) fn solids(ui: &mut Ui, session: &Session) -> Vec<Command> {
+    let mut commands = Vec::new();
+    for (solid, name) in (0..).zip(session.data().solids()).take(MOST_SOLIDS) {
+        let mut opacity = session.visibility().opacity_of(solid);
+        if ui.add(Slider::new(&mut opacity, 0.0..=1.0).text(format!("opacity of {name}"))).changed() {
+            commands.push(Command::SetOpacity(solid, opacity));
+        }
+    }
+    commands
+}
+
 /// The same for a scene that is shown as it is.
 pub(crate) fn show_plain(ui: &mut Ui, view: &mut View) {
     ui.add(Slider::new(&mut view.opacity, 0.05..=1.0).text("opacity"));
