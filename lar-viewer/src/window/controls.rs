@@ -175,7 +175,7 @@ impl Controls {
                 });
                 if !session.data().solids().is_empty() {
                     section(ui, "Opacity of solids", false, |ui| {
-                        commands.extend(panels::solids(ui, session))
+                        commands.extend(panels::solids(ui, session));
                     });
                 }
             });
