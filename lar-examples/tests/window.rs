@@ -63,7 +63,7 @@ fn an_arrangement_is_asked_wrapped_measured_and_cut() {
     session.check_changes("an angle", 1_000, |s| {
         s.at_once(|s| {
             s.xdotool("mousemove 300 600 key m");
-            for corner in ["306 140", "504 126", "550 253"] {
+            for corner in ["311 152", "499 138", "543 257"] {
                 s.xdotool(&format!("mousemove {corner} click 1"));
             }
         });
