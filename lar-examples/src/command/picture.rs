@@ -14,7 +14,9 @@ mod pose;
 #[cfg(feature = "viewer")]
 pub(super) use accent::Accent;
 #[cfg(feature = "viewer")]
-pub(super) use draw::{cells, cells_of};
+pub(super) use draw::cells;
+#[cfg(feature = "window")]
+pub(super) use draw::cells_of;
 #[cfg(feature = "viewer")]
 pub(super) use look::{Background, Cut, Look};
 #[cfg(feature = "viewer")]
