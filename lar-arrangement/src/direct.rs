@@ -64,8 +64,9 @@ struct Question<'a> {
 impl Arranger<'_> {
     /// The surface of one Boolean, without the cells of the arrangement: the same as that of
     /// [`Evaluator::surface`](crate::Evaluator::surface) for the arrangement of the surfaces, and what it cost. Where many
-    /// solids overlap this takes a fraction of the time: parts of facets where the expression is decided by solids whose surfaces are elsewhere are not cut. Where few overlap, or
-    /// an operand is not closed edge by edge, all cells are computed all the same.
+    /// solids overlap this takes a fraction of the time: parts of facets where the expression is decided by solids whose
+    /// surfaces are elsewhere are not cut. Where few overlap, or an operand is not closed edge by edge, all cells are
+    /// computed all the same.
     /// O((n + k + m) log) time for n facets, k pairs of facets that meet and m pieces out of the k near the result.
     ///
     /// ```

@@ -5,6 +5,12 @@ use crate::parallel;
 use lar_core::Cells;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
+/// Among so few half-edges those of one edge are looked for one by one.
+const FEW: usize = 24;
+
+/// Half-edges a chunk of work, a multiple of 64.
+const CHUNK: usize = 1 << 14;
+
 /// Half-edges by their ends.
 #[derive(Clone, Copy)]
 pub(crate) enum HalfEdges<'a> {
@@ -109,12 +115,6 @@ fn join_edges_at(from: u32, to: u32, half_edges: HalfEdges<'_>, first: &[AtomicU
         }
     }
 }
-
-/// Among so few half-edges those of one edge are looked for one by one.
-const FEW: usize = 24;
-
-/// Half-edges a chunk of work, a multiple of 64.
-const CHUNK: usize = 1 << 14;
 
 /// Edges in the order of their first half-edges, and for each half-edge 2 · edge, + 1 when it runs from the larger end
 /// to the smaller.

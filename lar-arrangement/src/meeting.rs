@@ -123,3 +123,29 @@ pub(crate) fn box_of(soup: &Soup, facet: u32) -> Aabb {
         edges => Aabb::around(edges.iter().map(|&e| position(soup.directed(e)[0]))),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::soup::Placed;
+    use lar_core::{Surface, cuboid_grid, icosphere};
+
+    #[test]
+    fn facets_are_found_without_a_tree() {
+        let ball = Surface::from_triangles("ball", &icosphere(2));
+        let block = cuboid_grid(&[3, 2, 1]).to_surface("block").expect("a block");
+        for surfaces in [vec![ball.clone()], vec![ball, block]] {
+            let placed = Placed::snapped(&surfaces, |_, _| 0.0).expect("the points are finite");
+            let soup = Soup::new(&surfaces, placed);
+            let all = hull(&soup);
+            for i in 0..100u32 {
+                let at = |k: u32| f64::from(i * (7 + 4 * k) % 100) / 100.0;
+                let lo = [0, 1, 2].map(|k| all.lo[k] + at(k as u32) * (all.hi[k] - all.lo[k]));
+                let target = Aabb { lo, hi: lo.map(|x| x + at(3) * (all.hi[0] - all.lo[0])) };
+                let n = soup.n_facets() as u32;
+                let expected: Vec<u32> = (0..n).filter(|&f| box_of(&soup, f).meets(&target)).collect();
+                assert_eq!(passing(&soup, &target), expected);
+            }
+        }
+    }
+}

@@ -130,13 +130,18 @@ pub(crate) fn map<R: Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send) -> Ve
 /// So many small items are worth another thread.
 const WORTH_A_THREAD: usize = 1024;
 
+/// How many of n items of light work are a piece.
+fn light_piece(n: usize) -> usize {
+    n.div_ceil(PIECES).max(WORTH_A_THREAD)
+}
+
 /// So many small results of light work are collected at a time: in a loop, not through rayon one by one.
 const BLOCK: usize = 64;
 
 /// As `map`, for work that takes less time than giving it to a thread. What is last may be done several times.
 pub(crate) fn map_light<R: Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send) -> Vec<R> {
     if n <= WORTH_A_THREAD || n_threads() == 1 || size_of::<R>() > size_of::<u64>() {
-        return map_pieces(n, n.div_ceil(PIECES).max(WORTH_A_THREAD), f);
+        return map_pieces(n, light_piece(n), f);
     }
     let block = |i: usize| -> [R; BLOCK] {
         let begin = i * BLOCK;
@@ -146,9 +151,7 @@ pub(crate) fn map_light<R: Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send)
             std::array::from_fn(|i| f((begin + i).min(n - 1)))
         }
     };
-    let n_blocks = n.div_ceil(BLOCK);
-    let piece = n_blocks.div_ceil(PIECES).max(WORTH_A_THREAD / BLOCK);
-    let mut all = map_pieces(n_blocks, piece, block).into_flattened();
+    let mut all = map_pieces(n.div_ceil(BLOCK), light_piece(n) / BLOCK, block).into_flattened();
     all.truncate(n);
     all
 }
@@ -157,10 +160,10 @@ pub(crate) fn map_light<R: Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send)
 #[cfg(feature = "rayon")]
 pub(crate) fn extend_light<R: Send>(list: &mut Vec<R>, n: usize, f: impl Fn(usize) -> R + Sync + Send) {
     use rayon::prelude::*;
-    if n < WORTH_A_THREAD || n_threads() == 1 {
+    if n <= WORTH_A_THREAD || n_threads() == 1 {
         list.extend((0..n).map(f));
     } else {
-        list.par_extend((0..n).into_par_iter().map(f));
+        list.par_extend((0..n).into_par_iter().with_max_len(light_piece(n)).map(f));
     }
 }
 
@@ -274,7 +277,7 @@ pub(crate) fn zeros<T: Copy + Default + Send>(n: usize) -> Vec<T> {
 /// Calls `f` with 0..n in any order.
 pub(crate) fn for_each(n: usize, f: impl Fn(usize) + Sync + Send) {
     // A list of nothing takes no memory.
-    map_pieces(n, n.div_ceil(PIECES).max(WORTH_A_THREAD), f);
+    map_pieces(n, light_piece(n), f);
 }
 
 /// Applies `f` to chunks of some items, each with the place that it begins at.

@@ -298,13 +298,12 @@ fn fitted_grid(surfaces: &[Surface]) -> Result<Grid, ArrangementError> {
             continue;
         }
         for face in 0..surface.n_faces() {
-            if let Some(&vertex) = surface.face(face).flatten().find(|&&v| v as usize >= surface.points.len())
-            {
+            if let Some(&vertex) = surface.face(face).flatten().find(|&&v| v as usize >= n) {
                 return Err(ArrangementError::NoSuchVertex {
                     solid: surface.name.clone(),
                     face: (face as u32).into(),
                     vertex: vertex.into(),
-                    n_vertices: surface.points.len(),
+                    n_vertices: n,
                 });
             }
         }
@@ -354,9 +353,9 @@ impl Facets {
     /// The ends of the half-edges, to be added to.
     fn listed(&mut self, geometry: &Geometry) -> &mut [Vec<u32>; 2] {
         self.ends.get_or_insert_with(|| {
-            let heads: Vec<u32> =
-                geometry.bases()[..self.polygon.len()].iter().flat_map(|&[a, b, c]| [b, c, a]).collect();
-            [geometry.bases()[..self.polygon.len()].as_flattened().to_vec(), heads]
+            let mut ends = Default::default();
+            push_ends(&mut ends, &geometry.bases()[..self.polygon.len()]);
+            ends
         })
     }
 
@@ -365,11 +364,8 @@ impl Facets {
         let begin = self.n_half_edges();
         let end = u32::try_from(begin as usize + 3 * n).expect("fewer than 2^32 half-edges");
         self.offsets.extend((begin..end).step_by(3).map(|begin| begin + 3));
-        if self.ends.is_some() {
-            let bases = &geometry.bases()[self.polygon.len()..];
-            let [tails, heads] = self.listed(geometry);
-            tails.extend_from_slice(bases.as_flattened());
-            heads.extend(bases.iter().flat_map(|&[a, b, c]| [b, c, a]));
+        if let Some(ends) = &mut self.ends {
+            push_ends(ends, &geometry.bases()[self.polygon.len()..]);
         }
         self.polygon.extend(first_polygon..first_polygon + n as u32);
     }
@@ -408,6 +404,12 @@ impl Facets {
         }
         soft
     }
+}
+
+/// Adds the tails and the heads of the half-edges of triangles.
+fn push_ends([tails, heads]: &mut [Vec<u32>; 2], corners: &[[u32; 3]]) {
+    tails.extend_from_slice(corners.as_flattened());
+    heads.extend(corners.iter().flat_map(|&[a, b, c]| [b, c, a]));
 }
 
 /// Parents sorted by polygon, each polygon's in the order of the input, and where each polygon's begin.

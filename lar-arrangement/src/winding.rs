@@ -160,8 +160,9 @@ impl Windings {
         out
     }
 
+    /// Number of cells; of those of the plane only where there are regions.
     pub(crate) fn n_cells(&self) -> usize {
-        self.offsets.len() - 1
+        self.offsets.len().saturating_sub(1)
     }
 
     /// The solids with a winding number other than zero in a cell.

@@ -225,6 +225,7 @@ impl Loops {
 
     /// The columns of faces with a large part of all edges, as half-edges: all edges are looked through for them.
     fn large_columns(&self, subdivision: &Subdivision, columns: &[u32]) -> Vec<(usize, Vec<u32>)> {
+        // An edge has two sides, so there are sixteen at most.
         const LARGE: u32 = 1 << 12;
         let n_edges = subdivision.cycles.of.len() as u32 / 2;
         let is_large = |&face: &usize| columns[face + 1] - columns[face] > LARGE.max(n_edges / 8);

@@ -21,8 +21,8 @@ pub(crate) struct Crossings {
     pub pairs_tested: u64,
 }
 
-/// `tree` holds the boxes of the carriers, a sample of its blocks first, `bundles` those that are known. O(n log n + pairs of boxes that meet), where
-/// pairs of carriers in one large bundle do not count.
+/// `tree` holds the boxes of the carriers, a sample of its blocks first, `bundles` those that are known. O(n log n + pairs
+/// of boxes that meet), where pairs of carriers in one large bundle do not count.
 ///
 /// A sample is searched in rounds of growing length, so that bundles are known before most pairs are looked at. A
 /// block is paired with what comes after it, so what is left after a round can be laid out anew.

@@ -24,8 +24,9 @@
 //!
 //! *camera*: `--view SIDE`, `--azimuth A --elevation E`, or `--eye X,Y,Z --target X,Y,Z --up X,Y,Z`; `--fov F` or
 //! `--ortho[=HEIGHT]`. *look*: `--explode S | SX,SY,SZ` `--by solids|cells|faces|edges`, `--levels S0,S1,S2,S3`, `--about`,
-//! `--alpha`, `--alpha-of NAME=A,…`, `--cells all|solid`, `--hide CELL,…`, `--only CELL,…`, `--draw` and `--numbers vertices,edges,faces,cells`, `--color`, `--exterior`, `--clip`,
-//! `--whole-cells`, `--background`; `lar help render` explains them. *accent*: `--select CELL`, `--boundary CELL`, `--coboundary CELL`, `--where EXPR`,
+//! `--alpha`, `--alpha-of NAME=A,…`, `--cells all|solid`, `--hide CELL,…`, `--only CELL,…`, `--draw` and `--numbers
+//! vertices,edges,faces,cells`, `--color`, `--exterior`, `--clip`, `--whole-cells`, `--background`; `lar help render`
+//! explains them. *accent*: `--select CELL`, `--boundary CELL`, `--coboundary CELL`, `--where EXPR`,
 //! `--wrapping CELL[:PICTURE]`, `--measure VERTEX,VERTEX[,VERTEX]`.
 //!
 //! Exit codes: 0 done, 1 `validate` found something wrong, 2 bad input or usage, 3 no graphics adapter or display, 130
