@@ -9,6 +9,7 @@ use std::cmp::Ordering;
 use std::num::NonZeroUsize;
 #[cfg(feature = "rayon")]
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::atomic::AtomicU32;
 
 #[cfg(feature = "rayon")]
 thread_local! {
@@ -269,9 +270,25 @@ pub(crate) fn cut<T>(items: &mut [T], lengths: impl Iterator<Item = usize>) -> V
     lengths.map(&mut part).collect()
 }
 
-/// Zeros, whose memory is touched for the first time by all threads.
+/// Zeros, whose memory is touched for the first time by all threads: before one of them fills it, or where the allocator
+/// would have one of them overwrite what was in use before.
 pub(crate) fn zeros<T: Copy + Default + Send>(n: usize) -> Vec<T> {
     if n_threads() == 1 { vec![T::default(); n] } else { map_light(n, |_| T::default()) }
+}
+
+/// Zeros for all threads to write to; like those of `vec!`, in memory that is touched where it is first written to.
+pub(crate) fn atomic_zeros(n: usize) -> Vec<AtomicU32> {
+    // Costs nothing: a number and an atomic one are the same in memory.
+    vec![0; n].into_iter().map(AtomicU32::new).collect()
+}
+
+/// As `map_light`, for plain results: loops over pieces of the memory.
+pub(crate) fn fill<R: Copy + Default + Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send) -> Vec<R> {
+    let mut all = vec![R::default(); n];
+    each_chunk_of(light_piece(n), &mut all, |begin, part| {
+        part.iter_mut().zip(begin..).for_each(|(to, i)| *to = f(i));
+    });
+    all
 }
 
 /// Calls `f` with 0..n in any order.
@@ -282,17 +299,17 @@ pub(crate) fn for_each(n: usize, f: impl Fn(usize) + Sync + Send) {
 
 /// Applies `f` to chunks of some items, each with the place that it begins at.
 pub(crate) fn each_chunk<T: Send>(items: &mut [T], f: impl Fn(usize, &mut [T]) + Sync + Send) {
-    const SIZE: usize = 1 << 14;
-    if items.len() <= SIZE {
-        return f(0, items);
-    }
-    let chunks = (0..).step_by(SIZE).zip(items.chunks_mut(SIZE));
+    each_chunk_of(1 << 14, items, f);
+}
+
+fn each_chunk_of<T: Send>(size: usize, items: &mut [T], f: impl Fn(usize, &mut [T]) + Sync + Send) {
+    let chunks = (0..).step_by(size).zip(items.chunks_mut(size));
     each(chunks.collect(), |(begin, chunk)| f(begin, chunk));
 }
 
 /// The items of some lists, list after list.
 pub(crate) fn concat<T: Copy + Default + Send + Sync>(lists: &[Vec<T>]) -> Vec<T> {
-    let mut all = zeros(lists.iter().map(Vec::len).sum());
+    let mut all = vec![T::default(); lists.iter().map(Vec::len).sum()];
     let parts = cut(&mut all, lists.iter().map(Vec::len));
     each(parts.into_iter().zip(lists).collect(), |(part, list)| part.copy_from_slice(list));
     all

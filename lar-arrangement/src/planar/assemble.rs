@@ -14,6 +14,7 @@ use crate::stats::Stats;
 use crate::subdivision::Subdivision;
 use crate::winding::Windings;
 use lar_core::{Cells, ChainComplex, Points};
+use std::ops::Range;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -31,20 +32,21 @@ pub(crate) fn assemble(
     let Faces { loops, face_loops, columns, signs } = Faces::new(&edges.ends, subdivision);
     let is_used = (n_edges < chains.n_edges()).then(|| edges.number_vertices(n_vertices));
     let Edges { mut ends, edge_at, runs, run_of: mut carrier_of } = edges;
-    // To check ∂2 keeps one thread busy for long.
+    let n_used = is_used.as_ref().map_or(n_vertices, |is_used| is_used.iter().filter(|&&used| used).count());
+    // To check an operator keeps one thread busy for long. What all can share comes last.
     let (boundary_2, (boundary_1, points)) = parallel::join(
         || ChainComplex::operator_from_columns(n_edges, columns, signs),
         || {
+            parallel::each_chunk(&mut ends, |_, part| part.iter_mut().for_each(|ends| ends.sort_unstable()));
+            let boundary_1 = boundary_1(n_used, ends);
             let mut positions = lengths(&grid, &carriers, &chains, positions);
             if let Some(is_used) = &is_used {
                 retain(&mut positions, is_used);
             }
-            let points = Points::from_columns(2, positions.into_flattened());
             parallel::each_chunk(&mut carrier_of, |_, part| {
                 part.iter_mut().for_each(|run| *run = runs[*run as usize].carrier);
             });
-            parallel::each_chunk(&mut ends, |_, part| part.iter_mut().for_each(|ends| ends.sort_unstable()));
-            (boundary_1(points.len(), ends), points)
+            (boundary_1, Points::from_columns(2, positions.into_flattened()))
         },
     );
     let mut sources = std::mem::take(&mut chains.vertices);
@@ -154,7 +156,7 @@ impl EdgeBits {
             (64 * i..n_edges.min(64 * i + 64))
                 .fold(0, |bits, edge| bits | u64::from(bit(edge)) << (edge % 64))
         };
-        Self(parallel::map_light(n_edges.div_ceil(64), word))
+        Self(parallel::fill(n_edges.div_ceil(64), word))
     }
 
     fn of(&self, edge: u32) -> bool {
@@ -192,7 +194,7 @@ impl Loops {
             part.iter_mut().zip(from).for_each(|(to, &h)| *to = h ^ u32::from(turned.of(h / 2)));
         });
         let face_loops = subdivision.cycles_of_face.offsets();
-        let begins = parallel::map_light(face_loops.len(), |face| offsets[face_loops[face] as usize]);
+        let begins = parallel::fill(face_loops.len(), |face| offsets[face_loops[face] as usize]);
         Self { offsets, half_edges, begins, turned, dangling }
     }
 
@@ -228,7 +230,8 @@ impl Loops {
         // An edge has two sides, so there are sixteen at most.
         const LARGE: u32 = 1 << 12;
         let n_edges = subdivision.cycles.of.len() as u32 / 2;
-        let is_large = |&face: &usize| columns[face + 1] - columns[face] > LARGE.max(n_edges / 8);
+        let are_large =
+            |faces: &Range<usize>| columns[faces.end] - columns[faces.start] > LARGE.max(n_edges / 8);
         let half_edge = |edge: u32, face: u32| {
             let [left, right] = [2 * edge, 2 * edge + 1].map(|h| subdivision.face(h) == face);
             (left != right).then(|| (2 * edge + u32::from(right)) ^ u32::from(self.turned.of(edge)))
@@ -238,7 +241,10 @@ impl Loops {
             let part = |i| range(i).filter_map(|edge| half_edge(edge as u32, face as u32)).collect();
             (face, parallel::concat(&parallel::map(n_chunks, part)))
         };
-        (0..columns.len() - 1).filter(is_large).map(column).collect()
+        // Most chunks of faces have no more edges together than one that is large.
+        let (n_chunks, faces) = parallel::chunks(columns.len() - 1, 256);
+        let faces = (0..n_chunks).map(faces).filter(are_large).flatten();
+        faces.filter(|&face| are_large(&(face..face + 1))).map(column).collect()
     }
 
     /// The half-edges of a face that are no edge's both, ascending.

@@ -22,14 +22,11 @@ pub(crate) struct Chains {
     pub chain: Vec<u32>,
     /// Where each carrier begins in `chain`; its edges are the steps of its stretch.
     pub offsets: Vec<u32>,
-    /// Vertex of each grid point that ends a segment with length, `NO_VERTEX` for others.
+    /// Vertex of each grid point that ends a segment with length, `u32::MAX` for others.
     pub vertex_of_point: Vec<u32>,
     /// Places in `chain` of the first and last vertex of each member of a carrier.
     pub stretches: Vec<[u32; 2]>,
 }
-
-/// No vertex.
-pub(super) const NO_VERTEX: u32 = u32::MAX;
 
 /// A [`VertexSource`] in two numbers: the carriers of a crossing, or twice a grid point.
 pub(crate) type Source = [u32; 2];
@@ -81,7 +78,7 @@ impl Chains {
     fn find_stretches(&mut self, carriers: &Carriers) {
         let whole = |c: u32| [self.offsets[c as usize], self.offsets[c as usize + 1] - 1];
         let members = &carriers.members;
-        self.stretches = parallel::map_light(members.len(), |i| whole(members[i].carrier));
+        self.stretches = parallel::fill(members.len(), |i| whole(members[i].carrier));
         if members.len() == carriers.ends.len() {
             return;
         }

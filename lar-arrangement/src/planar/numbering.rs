@@ -7,10 +7,10 @@
 use crate::counting::offsets;
 use crate::parallel;
 use crate::planar::carriers::{Carriers, Member};
-use crate::planar::chains::{Chains, NO_VERTEX, Part, Source};
+use crate::planar::chains::{Chains, Part, Source};
 use crate::planar::events::FIRST;
 use crate::union_find::UnionFind;
-use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+use std::sync::atomic::Ordering::Relaxed;
 
 pub(super) struct Numbering<'a> {
     n_points: u32,
@@ -144,25 +144,26 @@ impl<'a> Numbering<'a> {
         let firsts = parallel::map(self.parts.len(), |part| self.first_vertices(part));
         let begins = offsets(firsts.iter().map(|firsts| firsts.len() as u32));
         let n = self.n_points as usize + self.crossings.len();
-        let new = parallel::map_light(n, |_| AtomicU32::new(NO_VERTEX));
-        out.vertices = parallel::zeros(begins[firsts.len()] as usize);
+        // One more than the number of each, so that 0 is none.
+        let new = parallel::atomic_zeros(n);
+        out.vertices = vec![[0; 2]; begins[firsts.len()] as usize];
         let stretches = parallel::cut(&mut out.vertices, firsts.iter().map(Vec::len));
         parallel::each(
             stretches.into_iter().zip(&firsts).zip(&begins).collect(),
             |((stretch, firsts), &begin)| {
                 for ((source, &v), number) in stretch.iter_mut().zip(firsts).zip(begin..) {
-                    new[v as usize].store(number, Relaxed);
+                    new[v as usize].store(number + 1, Relaxed);
                     *source = self.source(v);
                 }
             },
         );
         drop(firsts);
-        let number = |v: u32| new[self.joined.root(v) as usize].load(Relaxed);
-        out.chain = parallel::zeros(self.parts.iter().map(|part| part.chain.len()).sum());
+        let number = |v: u32| new[self.joined.root(v) as usize].load(Relaxed).wrapping_sub(1);
+        out.chain = vec![0; self.parts.iter().map(|part| part.chain.len()).sum()];
         let chains = parallel::cut(&mut out.chain, self.parts.iter().map(|part| part.chain.len()));
         parallel::each(self.parts.iter().zip(chains).collect(), |(part, chain)| {
             chain.iter_mut().zip(&part.chain).for_each(|(to, &v)| *to = number(v & !FIRST));
         });
-        out.vertex_of_point = parallel::map_light(self.n_points as usize, |p| number(p as u32));
+        out.vertex_of_point = parallel::fill(self.n_points as usize, |p| number(p as u32));
     }
 }

@@ -54,12 +54,12 @@ impl Rotation {
     pub(super) fn new(edges: &Edges, n_vertices: usize) -> Self {
         let ranges = (0..parallel::n_threads()).map(|part| parallel::part_of(n_vertices, part));
         let ranges: Vec<Range<usize>> = ranges.filter(|range| !range.is_empty()).collect();
-        let mut ends = parallel::zeros(n_vertices + 1);
+        let mut ends = vec![0; n_vertices + 1];
         let parts = parallel::cut(&mut ends, ranges.iter().map(Range::len)).into_iter().zip(&ranges);
         parallel::each(parts.collect(), |(ends, range)| count_passes(edges, range.start as u32, ends));
         let sizes: Vec<usize> = ranges.iter().map(|range| ends[range.end - 1] as usize).collect();
         let begins = offsets(sizes.iter().map(|&size| size as u32));
-        let mut passes = parallel::zeros(begins[sizes.len()] as usize);
+        let mut passes = vec![[0; 2]; begins[sizes.len()] as usize];
         ends[n_vertices] = begins[sizes.len()];
         let parts = parallel::cut(&mut ends, ranges.iter().map(Range::len)).into_iter();
         let parts = parts.zip(parallel::cut(&mut passes, sizes.into_iter()));
@@ -72,7 +72,7 @@ impl Rotation {
 
     /// The half-edge after each one round its face: the first clockwise from its twin, of those that leave the same vertex.
     pub(super) fn next(&mut self, edges: &Edges, carriers: &Carriers) -> Vec<u32> {
-        let next = parallel::map_light(2 * edges.ends.len(), |_| AtomicU32::new(0));
+        let next = parallel::atomic_zeros(2 * edges.ends.len());
         let rank = |&[run, _]: &Pass| carriers.rank[edges.runs[run as usize].carrier as usize];
         parallel::each_stretch(&mut self.passes, &self.offsets, |at| {
             match at {
