@@ -27,7 +27,7 @@ pub struct Arrangement {
     pub(crate) n_shells: u32,
     pub(crate) parents: Vec<Parent>,
     pub(crate) parent_offsets: Vec<u32>,
-    /// Where the parents of the first piece of each face end.
+    /// Where the parents of the first piece of each face end; may be empty when faces are of one piece.
     pub(crate) crossed_ends: Vec<u32>,
     /// A facet with the plane and orientation of each face.
     pub(crate) facet_of_face: Vec<u32>,
@@ -216,7 +216,10 @@ impl Arrangement {
     /// that it is merged of. The solids crossed, and how, are the same everywhere in a face.
     #[must_use]
     pub fn crossed(&self, face: FaceId) -> &[Parent] {
-        &self.parents[self.parent_offsets[face.index()] as usize..self.crossed_ends[face.index()] as usize]
+        match self.crossed_ends.get(face.index()) {
+            Some(&end) => &self.parents[self.parent_offsets[face.index()] as usize..end as usize],
+            None => self.parents(face),
+        }
     }
 
     /// Q for one input surface: rows its faces, columns the faces of the arrangement, entry ±1 where the latter is

@@ -41,35 +41,34 @@ pub(crate) fn assemble(
     // What follows fits into the memory of what is not needed any more.
     soup.drop_edges();
     skeleton.drop_edges();
-    let shells_of_face = parallel::map(dissolved.old_face.len(), |face| {
-        let old = dissolved.old_face[face];
+    let n_faces = dissolved.n_faces();
+    let shells_of_face = parallel::map_light(n_faces, |face| {
+        let old = dissolved.old_face(face as u32);
         [0, 1].map(|side| shells.of_side[(2 * old + side) as usize])
     });
-    let cells_of_face = parallel::map(shells_of_face.len(), |face| {
-        shells_of_face[face].map(|shell| shells.cell_of[shell as usize])
-    });
+    let cells_of_face =
+        parallel::map_light(n_faces, |face| shells_of_face[face].map(|shell| shells.cell_of[shell as usize]));
     let Parents { parents, offsets: parent_offsets, crossed: crossed_ends } =
         Parents::new(&soup, &skeleton, &dissolved);
     let walls = Walls::of_faces(cells_of_face.len(), |walls, face| {
-        let of_face = parents[parent_offsets[face] as usize..crossed_ends[face] as usize].iter();
+        let end = crossed_ends.get(face).unwrap_or(&parent_offsets[face + 1]);
+        let of_face = parents[parent_offsets[face] as usize..*end as usize].iter();
         walls.push_face(cells_of_face[face], of_face.map(|p| (p.solid, soup.jump(p))));
     });
     let windings = Windings::new(shells.n_cells as usize, surfaces.len(), &walls);
     course.begin("complex", &mut stats)?;
-    let n_faces = dissolved.old_face.len();
-    let facet_of_face = parallel::map_light(n_faces, |face| skeleton.facet(dissolved.old_face[face]));
+    let facet_of_face = parallel::map_light(n_faces, |face| skeleton.facet(dissolved.old_face(face as u32)));
     let plane_of_face = parallel::map_light(n_faces, |face| soup.plane_class(facet_of_face[face]));
-    let vertices = if dissolved.merged.vertices.len() == skeleton.vertices.len() {
-        skeleton.vertices
-    } else {
-        dissolved.merged.vertices.iter().map(|&v| skeleton.vertices[v as usize]).collect()
+    let vertices = match &dissolved.origins {
+        Some(origins) => origins.vertices.iter().map(|&v| skeleton.vertices[v as usize]).collect(),
+        None => skeleton.vertices,
     };
-    let edges = std::mem::take(&mut dissolved.merged.edges);
+    let edges = std::mem::take(&mut dissolved.edges);
     let n_edges = edges.len();
     let ((points, boundary_1), above) = parallel::join(
         || (positions(&soup, &vertices), boundary_1(vertices.len(), edges)),
         || {
-            let of_faces = || boundary_2(n_edges, &dissolved.merged);
+            let of_faces = || boundary_2(n_edges, &dissolved.loops, &dissolved.face_loops);
             let of_cells = || boundary_3(&cells_of_face, shells.n_cells as usize);
             (operators == Operators::All).then(|| parallel::join(of_faces, of_cells))
         },
@@ -83,8 +82,8 @@ pub(crate) fn assemble(
     stats.exact_fallbacks = soup.geometry.counters.exact();
     Ok(Arrangement {
         complex,
-        loops: dissolved.merged.loops,
-        face_loops: dissolved.merged.face_loops,
+        loops: dissolved.loops,
+        face_loops: dissolved.face_loops,
         rings: dissolved.rings,
         cells_of_face,
         shells_of_face,
@@ -113,40 +112,33 @@ struct Parents {
     parents: Vec<Parent>,
     /// Those of face f are `offsets[f]..offsets[f + 1]`.
     offsets: Vec<u32>,
-    /// Those of the first piece of face f end at `crossed[f]`: the ones that a path across it crosses.
+    /// Those of the first piece of face f end at `crossed[f]`: the ones that a path across it crosses. May be empty when all
+    /// faces are of one piece.
     crossed: Vec<u32>,
 }
 
 impl Parents {
     fn new(soup: &Soup, skeleton: &Skeleton, dissolved: &Dissolved) -> Self {
-        let n = dissolved.old_face.len();
-        let mut out = Self {
-            parents: Vec::with_capacity(n),
-            offsets: Vec::with_capacity(n + 1),
-            crossed: Vec::with_capacity(n),
-        };
-        out.offsets.push(0);
-        let mut rest = dissolved.others.as_slice();
-        for (&first, new) in dissolved.old_face.iter().zip(0..) {
+        let n = dissolved.n_faces();
+        if dissolved.origins.is_none() && skeleton.has_single_parents() && soup.has_single_parents() {
+            let parent = |face| of_piece(soup, skeleton, face as u32).next().expect("each face has a parent");
+            let offsets = parallel::map_light(n + 1, |face| face as u32);
+            return Self { parents: parallel::map_light(n, parent), offsets, crossed: Vec::new() };
+        }
+        let mut out = Self { parents: Vec::with_capacity(n), offsets: vec![0], crossed: Vec::new() };
+        let mut rest = dissolved.others();
+        for new in 0..n as u32 {
             let begin = out.parents.len();
-            out.push_piece(soup, skeleton, first);
+            out.parents.extend(of_piece(soup, skeleton, dissolved.old_face(new)));
             let end = out.parents.len();
             out.crossed.push(end as u32);
             let n = rest.iter().take_while(|piece| piece.0 == new).count();
-            rest[..n].iter().for_each(|piece| out.push_piece(soup, skeleton, piece.1));
+            rest[..n].iter().for_each(|piece| out.parents.extend(of_piece(soup, skeleton, piece.1)));
             out.keep_new(begin, end);
             rest = &rest[n..];
             out.offsets.push(out.parents.len() as u32);
         }
         out
-    }
-
-    fn push_piece(&mut self, soup: &Soup, skeleton: &Skeleton, face: u32) {
-        for facet in skeleton.face_parents(face) {
-            let turn = if facet.same_way { 1 } else { -1 };
-            let turned = |p: &Parent| Parent { sign: p.sign * turn, ..*p };
-            self.parents.extend(soup.parents(facet.facet).iter().map(turned));
-        }
     }
 
     /// Of the parents from `end` on keeps each once, in order, that is not between `begin` and `end`.
@@ -162,6 +154,14 @@ impl Parents {
         more.retain(|p| known.binary_search(p).is_err());
         self.parents.append(&mut more);
     }
+}
+
+/// The parents of an old face.
+fn of_piece<'a>(soup: &'a Soup, skeleton: &'a Skeleton, face: u32) -> impl Iterator<Item = Parent> + 'a {
+    skeleton.face_parents(face).iter().flat_map(|facet| {
+        let turn = if facet.same_way { 1 } else { -1 };
+        soup.parents(facet.facet).iter().map(move |p| Parent { sign: p.sign * turn, ..*p })
+    })
 }
 
 fn positions(soup: &Soup, vertices: &[Vertex]) -> Points {

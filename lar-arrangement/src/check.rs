@@ -25,7 +25,7 @@ pub(crate) fn cuts(soup: &Soup, cuts: &Cuts, vertices: &[Vertex]) -> Result<(), 
         let on_plane =
             |v: u32| soup.geometry.side(&vertices[v as usize], Support::Facet(facet)) == Sign::Zero;
         for &edge in &soup.facet_edges[facet as usize] {
-            if let Some(v) = cuts.inner[(edge / 2) as usize].iter().find(|&&v| !on_plane(v)) {
+            if let Some(v) = cuts.inner.of(edge / 2).iter().find(|&&v| !on_plane(v)) {
                 return fail(
                     stage,
                     format!("vertex {v} of edge {} is off the plane of facet {facet}", edge / 2),
@@ -44,7 +44,8 @@ pub(crate) fn cuts(soup: &Soup, cuts: &Cuts, vertices: &[Vertex]) -> Result<(), 
             }
         }
     }
-    for (&[a, b], inner) in soup.edges.iter().zip(cuts.inner.iter()) {
+    for &edge in cuts.inner.keys() {
+        let ([a, b], inner) = (soup.edges[edge as usize], cuts.inner.of(edge));
         let chain: Vec<u32> = [a].into_iter().chain(inner.iter().copied()).chain([b]).collect();
         let turns: Vec<_> = chain
             .windows(2)

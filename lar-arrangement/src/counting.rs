@@ -33,18 +33,6 @@ pub(crate) fn offsets_of(n: usize, length: impl Fn(usize) -> u32 + Sync + Send) 
     out
 }
 
-/// Lists of lists one after the other, each as where its lists begin and end and what is in all of them.
-pub(crate) fn joined<T>(parts: Vec<(Vec<u32>, Vec<T>)>) -> (Vec<u32>, Vec<T>) {
-    let mut parts = parts.into_iter();
-    let (mut offsets, mut items) = parts.next().unwrap_or_else(|| (vec![0], Vec::new()));
-    for (more_offsets, more) in parts {
-        let base = items.len() as u32;
-        offsets.extend(more_offsets[1..].iter().map(|offset| base + offset));
-        items.extend(more);
-    }
-    (offsets, items)
-}
-
 /// The items by place, those of one place in their order: where each place begins, and all items.
 pub(crate) fn sorted_by_place<T: Copy>(
     n_places: usize,

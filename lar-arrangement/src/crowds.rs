@@ -17,19 +17,16 @@ use crate::boxes::{Aabb, NO_GROUP};
 use crate::charts::Charts;
 use crate::parallel;
 use crate::soup::Soup;
-use std::sync::atomic::{AtomicU16, Ordering::Relaxed};
+use std::ops::Range;
 use wide::u8x16;
 
 /// Fewer facets are not worth it.
 const FEW: usize = 1 << 12;
-/// Facets a chunk of work.
-const FACETS_A_CHUNK: usize = 1 << 14;
 /// There are so many voxels a facet in a cube around the scene.
 const VOXELS_A_FACET: f64 = 3.0;
 /// And no more than so many: a place fits into eight bits.
 const MOST_VOXELS: f64 = 255.0;
-/// The facets of a chunk may begin in so many voxels in the mean, those that are large in several, so that marking them is
-/// O(n).
+/// Facets that are too large for one voxel may begin in so many for each facet that there is, so that marking them is O(n).
 const MOST_VOXELS_A_FACET: usize = 16;
 /// Nothing begins in the voxel.
 const EMPTY: u16 = 0;
@@ -46,16 +43,13 @@ pub(crate) fn facets(soup: &Soup, charts: &Charts, reach: f64, all: &Aabb) -> Op
         return None;
     }
     let voxels = Voxels::new(soup, all, reach);
-    let (n_chunks, range) = parallel::chunks(n, FACETS_A_CHUNK);
-    let marked = parallel::map(n_chunks, |chunk| voxels.mark(soup, charts, range(chunk)));
-    let firsts: Vec<Vec<u32>> = marked.into_iter().collect::<Option<_>>()?;
-    let is_crowded = voxels.crowded();
-    let crowded = parallel::select(n, |f| {
-        match firsts[f as usize / FACETS_A_CHUNK][f as usize % FACETS_A_CHUNK] {
-            // There are few.
-            LARGE => true,
-            first => is_crowded[first as usize],
-        }
+    let firsts = parallel::map_light(n, |f| voxels.first(voxels.block(soup, f as u32)));
+    let marks = voxels.marked(soup, charts, &firsts)?;
+    let is_crowded = voxels.crowded(marks);
+    let crowded = parallel::select(n, |f| match firsts[f as usize] {
+        // There are few.
+        LARGE => true,
+        first => is_crowded[first as usize],
     });
     (4 * crowded.len() < 3 * n).then_some(crowded)
 }
@@ -87,7 +81,6 @@ fn width(block: Block) -> [usize; 3] {
 struct Voxels {
     /// Number of voxels along each axis; the last has no upper neighbour and nothing begins there.
     size: [usize; 3],
-    marks: Vec<AtomicU16>,
     /// Around each point.
     blocks: Vec<Block>,
 }
@@ -109,9 +102,7 @@ impl Voxels {
             }
             block
         });
-        let size = end.map(|end| usize::from(end) + 2);
-        let marks = (0..size.iter().product()).map(|_| AtomicU16::new(EMPTY)).collect();
-        Self { size, marks, blocks }
+        Self { size: end.map(|end| usize::from(end) + 2), blocks }
     }
 
     /// The block of a facet.
@@ -129,54 +120,80 @@ impl Voxels {
         (z * self.size[1] + y) * self.size[0] + x
     }
 
-    /// Marks where some facets begin; those that are too large begin everywhere. Returns where each does, or nothing when
-    /// there are too many of these.
-    fn mark(&self, soup: &Soup, charts: &Charts, facets: std::ops::Range<usize>) -> Option<Vec<u32>> {
-        let mut left = MOST_VOXELS_A_FACET * facets.len();
-        let mut firsts = Vec::with_capacity(facets.len());
-        for facet in facets {
-            let block = self.block(soup, facet as u32);
-            let own = match charts.of(facet as u32) {
-                NO_GROUP => CROWDED,
-                chart => u16::try_from(chart + 1).unwrap_or(CROWDED),
-            };
-            let (first, width) = (first(block), width(block));
-            if width[0] | width[1] | width[2] <= 1 {
-                let first = self.index(first);
-                add(&self.marks[first], own);
-                firsts.push(first as u32);
-                continue;
-            }
-            left = left.checked_sub(width.iter().map(|width| width + 1).product())?;
-            for z in first[2]..=first[2] + width[2] {
-                for y in first[1]..=first[1] + width[1] {
-                    let row = self.index([first[0], y, z]);
-                    self.marks[row..=row + width[0]].iter().for_each(|mark| add(mark, own));
+    /// Where a facet with a block begins.
+    fn first(&self, block: Block) -> u32 {
+        let width = width(block);
+        if width[0] | width[1] | width[2] <= 1 { self.index(first(block)) as u32 } else { LARGE }
+    }
+
+    /// The voxels with the marks of the facets that begin there, which is everywhere for those that are too large; nothing
+    /// when there are too many of these. Every thread looks at all facets for its part of the voxels.
+    fn marked(&self, soup: &Soup, charts: &Charts, firsts: &[u32]) -> Option<Vec<u16>> {
+        let own = |facet: usize| match charts.of(facet as u32) {
+            NO_GROUP => CROWDED,
+            chart => u16::try_from(chart + 1).unwrap_or(CROWDED),
+        };
+        let large = parallel::select(firsts.len(), |f| firsts[f as usize] == LARGE);
+        let blocks: Vec<Block> = large.iter().map(|&facet| self.block(soup, facet)).collect();
+        blocks.iter().try_fold(MOST_VOXELS_A_FACET * firsts.len(), |left, &block| {
+            left.checked_sub(width(block).iter().map(|width| width + 1).product())
+        })?;
+        let n = self.size.iter().product();
+        let mut marks = vec![EMPTY; n];
+        let part_of = |part| parallel::part_of(n, part);
+        let parts = parallel::cut(&mut marks, (0..parallel::n_threads()).map(|part| part_of(part).len()));
+        parallel::map_each(parts, |part, marks| {
+            let Range { start, end } = part_of(part);
+            for (facet, &first) in firsts.iter().enumerate() {
+                if let Some(mark) = (first as usize).checked_sub(start).and_then(|i| marks.get_mut(i)) {
+                    add(mark, own(facet));
                 }
             }
-            firsts.push(LARGE);
-        }
-        Some(firsts)
+            for (&facet, &block) in large.iter().zip(&blocks) {
+                for row in self.rows(block) {
+                    let row = row.start.clamp(start, end) - start..row.end.clamp(start, end) - start;
+                    marks[row].iter_mut().for_each(|mark| add(mark, own(facet as usize)));
+                }
+            }
+        });
+        Some(marks)
+    }
+
+    /// The rows of voxels of a block.
+    fn rows(&self, block: Block) -> impl Iterator<Item = Range<usize>> + '_ {
+        let ([x, y, z], width) = (first(block), width(block));
+        (z..=z + width[2]).flat_map(move |z| (y..=y + width[1]).map(move |y| [x, y, z])).map(move |at| {
+            let begin = self.index(at);
+            begin..begin + width[0] + 1
+        })
     }
 
     /// Whether a facet that begins in a voxel may reach into one that others reach into. O(n).
-    fn crowded(self) -> Vec<bool> {
-        let mut marks: Vec<u16> = self.marks.into_iter().map(AtomicU16::into_inner).collect();
-        let steps = [1, self.size[0], self.size[0] * self.size[1]];
-        for step in steps {
-            let from = marks.clone();
-            parallel::each_chunk(&mut marks[step..], |begin, part| {
-                part.iter_mut().zip(&from[begin..]).for_each(|(mark, &lower)| *mark = both(*mark, lower));
-            });
-        }
-        let mut is_crowded: Vec<bool> = marks.into_iter().map(|mark| mark == CROWDED).collect();
-        for step in steps {
-            let from = is_crowded.clone();
-            parallel::each_chunk(&mut is_crowded, |begin, part| {
-                let upper = from.get(begin + step..).unwrap_or_default();
-                part.iter_mut().zip(upper).for_each(|(is_crowded, upper)| *is_crowded |= upper);
-            });
-        }
+    fn crowded(&self, mut marks: Vec<u16>) -> Vec<bool> {
+        let (row, layer) = (self.size[0], self.size[0] * self.size[1]);
+        // From the end, so that what is read has not changed yet.
+        parallel::each(marks.chunks_mut(layer).collect(), |layer| {
+            for step in [1, row] {
+                (step..layer.len()).rev().for_each(|i| layer[i] = both(layer[i], layer[i - step]));
+            }
+        });
+        let lower: Vec<&[u16]> = marks.chunks(layer).collect();
+        let mut is_crowded = vec![false; marks.len()];
+        parallel::each(is_crowded.chunks_mut(layer).enumerate().collect(), |(z, layer)| {
+            // The upper of two layers, with what begins in the lower and reaches into it.
+            let add = |layer: &mut [bool], z: usize| {
+                let Some(upper) = lower.get(z) else { return };
+                let below = if z == 0 { upper } else { lower[z - 1] };
+                for ((is_crowded, &a), &b) in layer.iter_mut().zip(*upper).zip(below) {
+                    *is_crowded |= both(a, b) == CROWDED;
+                }
+            };
+            add(layer, z);
+            add(layer, z + 1);
+            for step in [1, row] {
+                (step..layer.len()).for_each(|i| layer[i - step] |= layer[i]);
+            }
+        });
         is_crowded
     }
 }
@@ -187,14 +204,8 @@ fn both(a: u16, b: u16) -> u16 {
 }
 
 /// Adds a facet's mark to that of a voxel. In whatever order they come, the same is there in the end.
-fn add(mark: &AtomicU16, own: u16) {
-    let mut there = mark.load(Relaxed);
-    while there != own && there != CROWDED {
-        match mark.compare_exchange_weak(there, both(there, own), Relaxed, Relaxed) {
-            Ok(_) => return,
-            Err(now) => there = now,
-        }
-    }
+fn add(mark: &mut u16, own: u16) {
+    *mark = both(*mark, own);
 }
 
 #[cfg(test)]

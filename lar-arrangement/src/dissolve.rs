@@ -21,26 +21,51 @@ use lar_core::Cells;
 /// The skeleton without soft edges.
 #[derive(Debug)]
 pub(crate) struct Dissolved {
-    pub merged: Merged,
+    pub edges: Vec<[u32; 2]>,
+    pub loops: Cells,
+    pub face_loops: Vec<u32>,
+    /// The faces around each edge.
+    pub rings: Cells,
+    /// What became of the old vertices and faces; nothing when all are what they were.
+    pub origins: Option<Origins>,
+}
+
+/// The old vertices and faces that the new ones were.
+#[derive(Debug)]
+pub(crate) struct Origins {
+    /// The old vertex of each new one.
+    pub vertices: Vec<u32>,
     /// The first of the old faces that make up each new one.
     pub old_face: Vec<u32>,
     /// The others, each after its new face, ascending.
     pub others: Vec<(u32, u32)>,
-    /// The new faces around each new edge.
-    pub rings: Cells,
+}
+
+impl Dissolved {
+    pub(crate) fn n_faces(&self) -> usize {
+        self.face_loops.len() - 1
+    }
+
+    /// The first of the old faces that make up a new one.
+    pub(crate) fn old_face(&self, face: u32) -> u32 {
+        self.origins.as_ref().map_or(face, |origins| origins.old_face[face as usize])
+    }
+
+    /// The others of them, each after its new face, ascending.
+    pub(crate) fn others(&self) -> &[(u32, u32)] {
+        self.origins.as_ref().map_or(&[], |origins| &origins.others)
+    }
 }
 
 /// The skeleton as it is, its loops and edges taken out of it.
 pub(crate) fn unchanged(skeleton: &mut Skeleton, rings: Cells) -> Dissolved {
-    let faces: Vec<u32> = (0..skeleton.n_faces() as u32).collect();
-    let merged = Merged {
-        vertices: (0..skeleton.vertices.len() as u32).collect(),
-        old_half_edge: (0..skeleton.edges.len() as u32).map(|e| 2 * e).collect(),
+    Dissolved {
         edges: std::mem::take(&mut skeleton.edges),
         loops: std::mem::take(&mut skeleton.loops),
         face_loops: std::mem::replace(&mut skeleton.face_loops, vec![0]),
-    };
-    Dissolved { merged, old_face: faces, others: Vec::new(), rings }
+        rings,
+        origins: None,
+    }
 }
 
 /// Dissolves.
@@ -91,12 +116,13 @@ pub(crate) fn dissolve(skeleton: &Skeleton, rings: &Cells, soup: &Soup, merge: M
     let others = new_face.iter().copied().zip(0..).filter(|&(new, old)| old_face[new as usize] != old);
     let mut others: Vec<(u32, u32)> = others.collect();
     others.sort_unstable();
-    Dissolved { merged, old_face, others, rings }
+    let Merged { vertices, edges, loops, face_loops, .. } = merged;
+    Dissolved { edges, loops, face_loops, rings, origins: Some(Origins { vertices, old_face, others }) }
 }
 
 fn is_dissolvable(edge: usize, skeleton: &Skeleton, rings: &Cells, soup: &Soup, merge: Merge) -> bool {
     let &[a, b] = &rings[edge] else { return false };
-    if !skeleton.soft[edge] || (a ^ b) % 2 != 1 {
+    if !skeleton.is_soft(edge) || (a ^ b) % 2 != 1 {
         return false;
     }
     let polygons = |face: u32| {

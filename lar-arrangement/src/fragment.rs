@@ -52,14 +52,14 @@ impl Groups {
     /// From the sets of facets that overlap, and what was found in and on the facets.
     pub(crate) fn new(soup: &Soup, cuts: &Cuts, mut overlapping: UnionFind) -> Self {
         let n = soup.n_facets();
-        let is_split = |&code: &u32| !cuts.inner[(code / 2) as usize].is_empty();
-        let users = || cuts.split_edges.iter().flat_map(|&edge| soup.facets_of_edge[edge as usize]);
+        let is_split = |&code: &u32| !cuts.inner.of(code / 2).is_empty();
+        let users = || cuts.inner.keys().iter().flat_map(|&edge| soup.facets_of_edge[edge as usize]);
         let mut is_member = if users().any(|user| user == MANY) {
             parallel::map(n, |f| soup.facet_edges[f].iter().any(is_split))
         } else {
             vec![false; n]
         };
-        for f in cuts.cut_facets().chain(users().filter(|&user| user < MANY)) {
+        for f in cuts.cut_facets().iter().copied().chain(users().filter(|&user| user < MANY)) {
             is_member[f as usize] = true;
         }
         for f in overlapping.joined() {
@@ -151,7 +151,7 @@ impl Fragmenter<'_> {
         for &edge in &self.soup.facet_edges[facet as usize] {
             let [tail, head] = self.soup.directed(edge);
             first.get_or_insert(tail);
-            if self.cuts.inner[(edge / 2) as usize].is_empty() {
+            if self.cuts.inner.of(edge / 2).is_empty() {
                 out.half_edges.push(WHOLE | edge);
             } else {
                 self.walk(edge, |piece| {
@@ -174,7 +174,7 @@ impl Fragmenter<'_> {
         let along = self.soup.geometry.direction(Along::Edge(ends));
         let direction = if edge.is_multiple_of(2) { along } else { along.opposite() };
         let [tail, head] = self.soup.directed(edge);
-        let inner = &self.cuts.inner[id as usize];
+        let inner = self.cuts.inner.of(id);
         let n = inner.len();
         let at = |i: usize| match i {
             0 => tail,
@@ -238,7 +238,7 @@ impl<'a> Local<'a> {
         for &facet in group {
             for &edge in &from.soup.facet_edges[facet as usize] {
                 known.push(from.soup.directed(edge)[0]);
-                known.extend_from_slice(&from.cuts.inner[(edge / 2) as usize]);
+                known.extend_from_slice(from.cuts.inner.of(edge / 2));
             }
             known.extend(from.cuts.segments(facet).iter().flat_map(|s| s.ends));
             known.extend(from.cuts.touches(facet));
@@ -403,7 +403,7 @@ impl<'a> Local<'a> {
     /// several members, the vertices of each member's boundary, which may lie on a segment inside another.
     fn loose_points(&self) -> Vec<u32> {
         let mut points: Vec<u32> =
-            self.group.iter().flat_map(|&f| self.from.cuts.touches(f)).map(|v| self.local(v)).collect();
+            self.group.iter().flat_map(|&f| self.from.cuts.touches(f)).map(|&v| self.local(v)).collect();
         if self.group.len() > 1 {
             points.extend(self.pieces.iter().flat_map(|p| p.ends));
         }

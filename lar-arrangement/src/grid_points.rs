@@ -1,5 +1,8 @@
 //! Numbers of grid points by their coordinates.
 
+use crate::parallel;
+use std::ops::Range;
+
 /// Open addressing: at least half of the slots are empty.
 #[derive(Debug, Default)]
 pub(crate) struct PointTable {
@@ -7,22 +10,107 @@ pub(crate) struct PointTable {
     slots: Vec<u64>,
 }
 
+/// Some points, equal ones once.
+pub(crate) struct Unified {
+    pub table: PointTable,
+    /// The distinct points in the order in which they come first.
+    pub points: Vec<[i64; 3]>,
+    /// Which of these each is; empty when all are distinct.
+    pub number: Vec<u32>,
+}
+
+impl Unified {
+    /// Every thread looks at all points and takes those with a place in its part of the table. O(n) expected for each.
+    pub(crate) fn new(mut points: Vec<[i64; 3]>) -> Self {
+        let at = |i: u32| points[i as usize];
+        let mut table = PointTable::with_capacity(points.len());
+        let n_slots = table.slots.len();
+        let part_of = |part: usize| parallel::part_of(n_slots, part);
+        let parts =
+            parallel::cut(&mut table.slots, (0..parallel::n_threads()).map(|part| part_of(part).len()));
+        let filled = parallel::map_each(parts, |part, slots| {
+            let mut part = Part { slots, range: part_of(part), bits: n_slots.ilog2(), ..Part::default() };
+            points.iter().zip(0..).for_each(|(&point, i)| part.insert(point, i, at));
+            (part.repeated, part.left)
+        });
+        let mut repeated = Vec::new();
+        for (more, left) in filled {
+            repeated.extend(more);
+            // Those that are equal have been left by the same thread.
+            for i in left {
+                match table.slot(at(i), at) {
+                    Ok(first) => repeated.push((i, first)),
+                    Err(slot) => table.fill(slot, at(i), i),
+                }
+            }
+        }
+        if repeated.is_empty() {
+            return Self { table, points, number: Vec::new() };
+        }
+        let mut number: Vec<u32> = (0..points.len() as u32).collect();
+        repeated.into_iter().for_each(|(i, first)| number[i as usize] = first);
+        let mut n = 0;
+        for i in 0..points.len() {
+            let first = number[i] as usize;
+            if first == i {
+                number[i] = n as u32;
+                points[n] = points[i];
+                n += 1;
+            } else {
+                number[i] = number[first];
+            }
+        }
+        points.truncate(n);
+        points.shrink_to_fit();
+        parallel::each_chunk(&mut table.slots, |_, slots| {
+            for entry in slots.iter_mut().filter(|entry| **entry != 0) {
+                *entry = (*entry & TAG) | (u64::from(number[id(*entry) as usize]) + 1);
+            }
+        });
+        Self { table, points, number }
+    }
+}
+
+/// Consecutive slots of a table.
+#[derive(Default)]
+struct Part<'a> {
+    slots: &'a mut [u64],
+    range: Range<usize>,
+    /// There are 2^bits slots in all.
+    bits: u32,
+    /// Points that are there already, and the numbers of the first ones that equal them.
+    repeated: Vec<(u32, u32)>,
+    /// Points whose slot is behind the part.
+    left: Vec<u32>,
+}
+
+impl Part<'_> {
+    /// Adds a point with a place in the part.
+    fn insert(&mut self, point: [i64; 3], i: u32, at: impl Fn(u32) -> [i64; 3]) {
+        let hash = hash(point);
+        let Some(home) =
+            home(hash, self.bits).checked_sub(self.range.start).filter(|&i| i < self.slots.len())
+        else {
+            return;
+        };
+        for entry in &mut self.slots[home..] {
+            if *entry == 0 {
+                *entry = tag(hash) | (u64::from(i) + 1);
+                return;
+            }
+            if *entry & TAG == tag(hash) && at(id(*entry)) == point {
+                self.repeated.push((i, id(*entry)));
+                return;
+            }
+        }
+        self.left.push(i);
+    }
+}
+
 impl PointTable {
     /// A table for at most `n` points.
     pub(crate) fn with_capacity(n: usize) -> Self {
         Self { slots: vec![0; (2 * n).next_power_of_two().max(2)] }
-    }
-
-    /// The number of a point; a new one is appended to `points`. O(1) expected.
-    pub(crate) fn number(&mut self, point: [i64; 3], points: &mut Vec<[i64; 3]>) -> u32 {
-        match self.slot(point, |id| points[id as usize]) {
-            Ok(id) => id,
-            Err(slot) => {
-                points.push(point);
-                self.fill(slot, point, points.len() as u32 - 1);
-                points.len() as u32 - 1
-            }
-        }
     }
 
     /// Adds a point that is not there yet, by its number; `at` gives the coordinates of the others.
@@ -45,13 +133,11 @@ impl PointTable {
     fn slot(&self, point: [i64; 3], at: impl Fn(u32) -> [i64; 3]) -> Result<u32, usize> {
         let hash = hash(point);
         let mask = self.slots.len() - 1;
-        let mut slot = (hash >> (64 - mask.count_ones())) as usize;
+        let mut slot = home(hash, mask.count_ones());
         loop {
             match self.slots[slot] {
                 0 => return Err(slot),
-                entry if entry & TAG == tag(hash) && at((entry & !TAG) as u32 - 1) == point => {
-                    return Ok((entry & !TAG) as u32 - 1);
-                }
+                entry if entry & TAG == tag(hash) && at(id(entry)) == point => return Ok(id(entry)),
                 _ => slot = (slot + 1) & mask,
             }
         }
@@ -59,6 +145,16 @@ impl PointTable {
 }
 
 const TAG: u64 = 0xffff_ffff << 32;
+
+/// The number in a slot that is not empty.
+fn id(entry: u64) -> u32 {
+    (entry & !TAG) as u32 - 1
+}
+
+/// Where a point belongs among 2^bits slots, if it is free.
+fn home(hash: u64, bits: u32) -> usize {
+    (hash >> (64 - bits)) as usize
+}
 
 fn tag(hash: u64) -> u64 {
     hash << 32 & TAG
@@ -75,21 +171,47 @@ pub(crate) fn hash<const N: usize>(point: [i64; N]) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
+    use std::num::NonZeroUsize;
 
     #[test]
     fn points_are_numbered_in_the_order_in_which_they_come() {
         // All on a coarse lattice, so that the low bits are equal.
-        let lattice = |i: u64| [i % 7, i / 7 % 7, i / 49].map(|x| (x as i64 - 3) << 37);
-        let mut table = PointTable::with_capacity(343);
-        let mut points = Vec::new();
-        for round in 0..2 {
-            for i in 0..343 {
-                assert_eq!(table.number(lattice(i), &mut points), i as u32, "round {round}");
-            }
-        }
-        assert_eq!(points.len(), 343);
+        let lattice = |i: u32| [i % 7, i / 7 % 7, i / 49 % 7].map(|x| (i64::from(x) - 3) << 37);
+        let Unified { table, points, number } = Unified::new((0..2 * 343).map(lattice).collect());
+        assert_eq!(points, (0..343).map(lattice).collect::<Vec<_>>());
+        assert!(number.iter().copied().eq((0..343).chain(0..343)));
         assert_eq!(table.find(lattice(200), |id| points[id as usize]), Some(200));
         assert_eq!(table.find([1, 2, 3], |id| points[id as usize]), None);
         assert_eq!(PointTable::default().find([0; 3], |_| [0; 3]), None);
+    }
+
+    proptest! {
+        #[test]
+        fn points_are_unified_by_any_number_of_threads(of in prop::collection::vec(0i64..40, 0..200), few in 1i64..40) {
+            // Points for which the threads' parts are full to the end, and others.
+            let point = |i: u32| [of[i as usize] % few, 0, 0];
+            let mut points: Vec<[i64; 3]> = Vec::new();
+            let mut number = Vec::new();
+            for p in (0..of.len() as u32).map(point) {
+                let known = points.iter().position(|q| *q == p);
+                number.push(known.unwrap_or(points.len()) as u32);
+                points.extend(known.is_none().then_some(p));
+            }
+            for threads in 1..=5 {
+                let unified = || Unified::new((0..of.len() as u32).map(point).collect());
+                let unified = parallel::with_threads(NonZeroUsize::new(threads), unified).unwrap();
+                prop_assert_eq!(&unified.points, &points);
+                if points.len() == of.len() {
+                    prop_assert!(unified.number.is_empty());
+                } else {
+                    prop_assert_eq!(&unified.number, &number);
+                }
+                for (&p, id) in points.iter().zip(0..) {
+                    prop_assert_eq!(unified.table.find(p, |id| points[id as usize]), Some(id));
+                }
+                prop_assert_eq!(unified.table.find([99, 0, 0], |id| points[id as usize]), None);
+            }
+        }
     }
 }

@@ -62,7 +62,7 @@ pub(crate) fn first_of_edge(n_points: usize, half_edges: HalfEdges<'_>) -> Vec<u
 }
 
 fn shared_firsts(n_points: usize, half_edges: HalfEdges<'_>) -> Vec<AtomicU32> {
-    let first: Vec<AtomicU32> = (0..half_edges.len()).map(|_| AtomicU32::new(0)).collect();
+    let first = parallel::atomic_zeros(half_edges.len());
     // Every part reads all half-edges and sorts those of its points: as many parts as there are threads.
     parallel::map(parallel::n_threads(), |part| {
         let points = parallel::part_of(n_points, part);

@@ -66,7 +66,7 @@ impl Nesting<'_> {
         let Rays { skeleton, geometry, .. } = self.rays;
         let start = self.rays.start(edge);
         let mut hits = Vec::new();
-        self.rays.candidates(&start, |facet| hits.extend(skeleton.faces_of_facet[facet as usize].clone()));
+        self.rays.candidates(&start, |facet| hits.extend(skeleton.faces_of_facets.of(facet)));
         // Facets that overlap in one plane share their faces.
         hits.sort_unstable();
         hits.dedup();

@@ -1,52 +1,92 @@
 //! The boundary operators from edges, loops and cells.
 
-use crate::counting::joined;
-use crate::merge::Merged;
 use crate::parallel;
 use lar_core::{Cells, ChainComplex, Operator};
 use std::ops::Range;
 
 pub(crate) fn boundary_1(n_vertices: usize, edges: Vec<[u32; 2]>) -> Operator {
-    let (mut offsets, mut signs) = (parallel::zeros(edges.len() + 1), parallel::zeros(2 * edges.len()));
-    parallel::each_chunk(&mut offsets, |begin, part| {
-        part.iter_mut().zip((2 * begin as u32..).step_by(2)).for_each(|(to, offset)| *to = offset);
-    });
-    parallel::each_chunk(&mut signs, |_, part| {
-        part.chunks_exact_mut(2).for_each(|pair| pair.copy_from_slice(&[-1, 1]));
-    });
+    let offsets = parallel::map_light(edges.len() + 1, |edge| 2 * edge as u32);
+    let signs = parallel::map_light(edges.len(), |_| [-1, 1]).into_flattened();
     let columns = Cells::from_parts(offsets, edges.into_flattened());
     ChainComplex::operator_from_columns(n_vertices, columns, signs)
 }
 
-pub(crate) fn boundary_2(n_edges: usize, faces: &Merged) -> Operator {
-    let n_faces = faces.face_loops.len() - 1;
-    let parts = parallel::map(parallel::n_threads(), |part| columns(parallel::part_of(n_faces, part), faces));
-    let (offsets, entries) = joined(parts);
-    let signs = entries.iter().map(|h| 1 - 2 * (h % 2) as i8).collect();
-    let edges = entries.into_iter().map(|h| h / 2).collect();
+/// ∂2 of faces whose loops are `face_loops[f]..face_loops[f + 1]` of `loops`.
+pub(crate) fn boundary_2(n_edges: usize, loops: &Cells, face_loops: &[u32]) -> Operator {
+    let n_faces = face_loops.len() - 1;
+    let of_faces = |part: usize| {
+        // The first part gets room for the others.
+        let n = if part == 0 { [n_faces, loops.indices().len()] } else { [0; 2] };
+        Columns::new(parallel::part_of(n_faces, part), loops, face_loops, n)
+    };
+    let mut parts = parallel::map(parallel::n_threads(), of_faces).into_iter();
+    let mut all = parts.next().expect("there is a thread");
+    parts.for_each(|part| all.append(&part));
+    let Columns { offsets, edges, signs } = all;
     ChainComplex::operator_from_columns(n_edges, Cells::from_parts(offsets, edges), signs)
 }
 
-/// The columns of ∂2 for some faces: half-edges of their loops, ascending. An edge that stands in a face in both directions
-/// is no boundary.
-fn columns(range: Range<usize>, faces: &Merged) -> (Vec<u32>, Vec<u32>) {
-    let begin_of = |face: usize| faces.loops.offsets()[faces.face_loops[face] as usize] as usize;
-    let mut offsets = Vec::with_capacity(range.len() + 1);
-    let mut entries = Vec::with_capacity(3 * range.len());
-    let mut column: Vec<u32> = Vec::new();
-    offsets.push(0);
-    for face in range {
-        column.clear();
-        column.extend_from_slice(&faces.loops.indices()[begin_of(face)..begin_of(face + 1)]);
-        column.sort_unstable();
-        for same in column.chunk_by(|a, b| a / 2 == b / 2) {
-            if let &[h] = same {
-                entries.push(h);
+/// Whether half-edges are of different edges.
+fn distinct(a: u32, b: u32) -> bool {
+    a / 2 != b / 2
+}
+
+/// Columns of ∂2.
+struct Columns {
+    offsets: Vec<u32>,
+    edges: Vec<u32>,
+    signs: Vec<i8>,
+}
+
+impl Columns {
+    /// For some faces the half-edges of their loops, ascending, with room for so many columns and entries. An edge that
+    /// stands in a face in both directions is no boundary.
+    fn new(
+        range: Range<usize>,
+        loops: &Cells,
+        face_loops: &[u32],
+        [n_columns, n_entries]: [usize; 2],
+    ) -> Self {
+        let begin_of = |face: usize| loops.offsets()[face_loops[face] as usize] as usize;
+        let n_entries = n_entries.max(begin_of(range.end) - begin_of(range.start));
+        let mut out = Self {
+            offsets: Vec::with_capacity(n_columns.max(range.len()) + 1),
+            edges: Vec::with_capacity(n_entries),
+            signs: Vec::with_capacity(n_entries),
+        };
+        let mut column: Vec<u32> = Vec::new();
+        out.offsets.push(0);
+        for face in range {
+            let half_edges = &loops.indices()[begin_of(face)..begin_of(face + 1)];
+            match half_edges {
+                &[a, b, c] if distinct(a, b) && distinct(b, c) && distinct(c, a) => {
+                    let ([a, b], c) = ([a.min(b), a.max(b)], c);
+                    out.push([a.min(c), a.max(b.min(c)), b.max(c)]);
+                }
+                _ => {
+                    column.clear();
+                    column.extend_from_slice(half_edges);
+                    column.sort_unstable();
+                    let same = column.chunk_by(|&a, &b| !distinct(a, b));
+                    same.filter(|same| same.len() == 1).for_each(|same| out.push([same[0]]));
+                }
             }
+            out.offsets.push(out.edges.len() as u32);
         }
-        offsets.push(entries.len() as u32);
+        out
     }
-    (offsets, entries)
+
+    fn push<const N: usize>(&mut self, half_edges: [u32; N]) {
+        self.edges.extend_from_slice(&half_edges.map(|h| h / 2));
+        self.signs.extend_from_slice(&half_edges.map(|h| 1 - 2 * (h % 2) as i8));
+    }
+
+    fn append(&mut self, other: &Self) {
+        let base = self.edges.len() as u32;
+        self.offsets.extend(other.offsets[1..].iter().map(|offset| base + offset));
+        self.edges.extend_from_slice(&other.edges);
+        self.signs.extend_from_slice(&other.signs);
+    }
 }
 
 pub(crate) fn boundary_3(cells_of_face: &[[u32; 2]], n_cells: usize) -> Operator {

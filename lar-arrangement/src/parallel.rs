@@ -10,6 +10,8 @@ use std::num::NonZeroUsize;
 #[cfg(feature = "rayon")]
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::AtomicU32;
+#[cfg(feature = "rayon")]
+use std::sync::{Arc, Mutex, PoisonError};
 
 #[cfg(feature = "rayon")]
 thread_local! {
@@ -22,8 +24,13 @@ pub(crate) struct Team {
     #[cfg(feature = "rayon")]
     threads: Option<NonZeroUsize>,
     #[cfg(feature = "rayon")]
-    pool: OnceCell<ThreadPool>,
+    pool: OnceCell<Arc<ThreadPool>>,
 }
+
+/// The threads of the last operation that was given a number of them, for the next one: the system takes milliseconds to
+/// spread new threads over the processors, and memory that they have freed stays theirs.
+#[cfg(feature = "rayon")]
+static KEPT: Mutex<Option<Arc<ThreadPool>>> = Mutex::new(None);
 
 /// A step that handles fewer things (segments, pairs, edges) than this takes no longer on one thread.
 #[cfg(feature = "rayon")]
@@ -67,10 +74,21 @@ impl Team {
         if let Some(pool) = self.pool.get() {
             return Ok(pool);
         }
-        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-        let pool = pool.map_err(|e| ArrangementError::Threads { threads, reason: e.to_string() })?;
+        let pool = kept_pool(threads)?;
         Ok(self.pool.get_or_init(|| pool))
     }
+}
+
+/// So many threads: those that were kept, or new ones in their place.
+#[cfg(feature = "rayon")]
+fn kept_pool(threads: usize) -> Result<Arc<ThreadPool>, ArrangementError> {
+    let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(pool) = kept.as_ref().filter(|pool| pool.current_num_threads() == threads) {
+        return Ok(Arc::clone(pool));
+    }
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.map_err(|e| ArrangementError::Threads { threads, reason: e.to_string() })?;
+    Ok(Arc::clone(kept.insert(Arc::new(pool))))
 }
 
 /// Runs `f` on the caller's thread.
@@ -136,14 +154,20 @@ fn light_piece(n: usize) -> usize {
     n.div_ceil(PIECES).max(WORTH_A_THREAD)
 }
 
-/// So many small results of light work are collected at a time: in a loop, not through rayon one by one.
-const BLOCK: usize = 64;
-
 /// As `map`, for work that takes less time than giving it to a thread. What is last may be done several times.
 pub(crate) fn map_light<R: Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send) -> Vec<R> {
-    if n <= WORTH_A_THREAD || n_threads() == 1 || size_of::<R>() > size_of::<u64>() {
-        return map_pieces(n, light_piece(n), f);
+    if n <= WORTH_A_THREAD || n_threads() == 1 {
+        return (0..n).map(f).collect();
     }
+    // So many results are collected at a time: in a loop, not through rayon one by one.
+    match size_of::<R>() {
+        0..=8 => map_blocks::<64, R>(n, f),
+        9..=32 => map_blocks::<16, R>(n, f),
+        _ => map_pieces(n, light_piece(n), f),
+    }
+}
+
+fn map_blocks<const BLOCK: usize, R: Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send) -> Vec<R> {
     let block = |i: usize| -> [R; BLOCK] {
         let begin = i * BLOCK;
         if begin + BLOCK <= n {
@@ -151,6 +175,34 @@ pub(crate) fn map_light<R: Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send)
         } else {
             std::array::from_fn(|i| f((begin + i).min(n - 1)))
         }
+    };
+    let mut all = map_pieces(n.div_ceil(BLOCK), light_piece(n) / BLOCK, block).into_flattened();
+    all.truncate(n);
+    all
+}
+
+/// As `map_light`, for the items of lists: `f(l, i)` for the i-th of list l, which begins at `begins[l]` among all; the
+/// number of all comes last.
+pub(crate) fn map_lists<R: Send>(begins: &[u32], f: impl Fn(usize, usize) -> R + Sync + Send) -> Vec<R> {
+    const BLOCK: usize = 16;
+    let n = begins.last().map_or(0, |&n| n as usize);
+    let list_of = |item: usize| begins.partition_point(|&begin| begin as usize <= item) - 1;
+    if n <= WORTH_A_THREAD || n_threads() == 1 {
+        let mut all = Vec::with_capacity(n);
+        for (l, range) in begins.windows(2).enumerate() {
+            all.extend((0..(range[1] - range[0]) as usize).map(|i| f(l, i)));
+        }
+        return all;
+    }
+    let block = |block: usize| -> [R; BLOCK] {
+        let mut list = list_of((block * BLOCK).min(n - 1));
+        std::array::from_fn(|i| {
+            let item = (block * BLOCK + i).min(n - 1);
+            while begins[list + 1] as usize <= item {
+                list += 1;
+            }
+            f(list, item - begins[list] as usize)
+        })
     };
     let mut all = map_pieces(n.div_ceil(BLOCK), light_piece(n) / BLOCK, block).into_flattened();
     all.truncate(n);
@@ -222,6 +274,22 @@ pub(crate) fn each<T: Send>(items: Vec<T>, f: impl Fn(T) + Sync + Send) {
 #[cfg(not(feature = "rayon"))]
 pub(crate) fn each<T>(items: Vec<T>, f: impl Fn(T)) {
     items.into_iter().for_each(f);
+}
+
+/// Applies `f` to all items and their places, and collects the results in order.
+#[cfg(feature = "rayon")]
+pub(crate) fn map_each<T: Send, R: Send>(items: Vec<T>, f: impl Fn(usize, T) -> R + Sync + Send) -> Vec<R> {
+    use rayon::prelude::*;
+    if n_threads() == 1 {
+        return items.into_iter().enumerate().map(|(i, item)| f(i, item)).collect();
+    }
+    items.into_par_iter().enumerate().with_max_len(1).map(|(i, item)| f(i, item)).collect()
+}
+
+/// Applies `f` to all items and their places, and collects the results in order.
+#[cfg(not(feature = "rayon"))]
+pub(crate) fn map_each<T, R>(items: Vec<T>, f: impl Fn(usize, T) -> R) -> Vec<R> {
+    items.into_iter().enumerate().map(|(i, item)| f(i, item)).collect()
 }
 
 /// Sorts distinct items.
@@ -313,6 +381,12 @@ pub(crate) fn concat<T: Copy + Default + Send + Sync>(lists: &[Vec<T>]) -> Vec<T
     let parts = cut(&mut all, lists.iter().map(Vec::len));
     each(parts.into_iter().zip(lists).collect(), |(part, list)| part.copy_from_slice(list));
     all
+}
+
+/// Whether something holds for all of 0..n.
+pub(crate) fn all(n: usize, holds: impl Fn(usize) -> bool + Sync + Send) -> bool {
+    let (n_chunks, range) = chunks(n, 1 << 14);
+    map(n_chunks, |i| range(i).all(&holds)).into_iter().all(|holds| holds)
 }
 
 /// The numbers below n that are to be kept, ascending.

@@ -273,7 +273,7 @@ impl<'a> Arranger<'a> {
     }
 
     pub(crate) fn dissolved(&self, skeleton: &mut Skeleton, rings: Cells, soup: &Soup) -> Dissolved {
-        if skeleton.soft.contains(&true) {
+        if skeleton.has_soft_edges() {
             dissolve::dissolve(skeleton, &rings, soup, self.merge)
         } else {
             dissolve::unchanged(skeleton, rings)

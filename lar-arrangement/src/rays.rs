@@ -45,9 +45,10 @@ impl Rays<'_> {
             let facet = self.skeleton.facet(entry / 2);
             (self.first_sign(facet) == Sign::Positive) == entry.is_multiple_of(2)
         };
+        let along = self.skeleton.direction(edge, self.geometry);
         let contains = |i: usize| {
             let (a, b) = (ring[i], ring[(i + 1) % ring.len()]);
-            match wrap::turn(a, b, edge, self.skeleton, self.geometry) {
+            match wrap::turn(a, b, &along, self.skeleton, self.geometry) {
                 Sign::Positive => ahead(a) && !ahead(b),
                 Sign::Zero => ahead(a),
                 Sign::Negative => ahead(a) || !ahead(b),

@@ -85,7 +85,7 @@ fn finished(merged: Merged, origins: Origins, points: &Points, vertices: &[u32])
     let tail = |&h: &u32| merged.edges[(h / 2) as usize][(h % 2) as usize];
     let tails = merged.loops.indices().iter().map(tail).collect();
     let loops = Cells::from_parts(merged.loops.offsets().to_vec(), tails);
-    let boundary_2 = boundary_2(merged.edges.len(), &merged);
+    let boundary_2 = boundary_2(merged.edges.len(), &merged.loops, &merged.face_loops);
     let boundary_1 = boundary_1(vertices.len(), merged.edges);
     SolidComplex {
         complex: ChainComplex::new(Points::from_columns(dim, coords), vec![boundary_1, boundary_2]),
@@ -176,7 +176,7 @@ impl<'a> OutwardFaces<'a> {
             }
             face_loops.push(loops.len() as u32);
         })?;
-        let (offsets, mut around) = wrap::faces_at_edges(edges.len(), &loops, &face_loops).into_parts();
+        let (offsets, mut around) = wrap::faces_at_edges(edges.len(), &loops, &face_loops);
         around.iter_mut().for_each(|entry| *entry /= 2);
         let around = Cells::from_parts(offsets, around);
         Ok(Self { solid, faces, vertices: vertices.list, edges, loops, face_loops, around })

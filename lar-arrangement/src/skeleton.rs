@@ -20,12 +20,12 @@ pub(crate) struct Skeleton {
     pub vertices: Vec<Vertex>,
     /// Ends of each edge, the smaller first.
     pub edges: Vec<[u32; 2]>,
-    /// Directions of the edges that do not end at two input points, from the smaller end to the larger.
+    /// The edges that are pieces, not whole edges of the input, ascending.
+    pieces: Vec<u32>,
+    /// Their directions, from the smaller end to the larger.
     directions: Vec<Direction>,
-    /// Which of these each edge has, or `NOT_SEEN`.
-    direction_of: Vec<u32>,
-    /// Whether an edge is only a diagonal inside a polygon.
-    pub soft: Vec<bool>,
+    /// Whether an edge is only a diagonal inside a polygon; empty when none is.
+    soft: Vec<bool>,
     /// Half-edges (2 · edge, + 1 against its direction) of each loop, the face on their left.
     pub loops: Cells,
     /// The loops of face f are `face_loops[f]..face_loops[f + 1]`, the outer one first.
@@ -33,8 +33,48 @@ pub(crate) struct Skeleton {
     pub parents: Vec<FacetParent>,
     /// The parents of face f are `parent_offsets[f]..parent_offsets[f + 1]`.
     pub parent_offsets: Vec<u32>,
-    /// The faces that the group of each facet became.
-    pub faces_of_facet: Vec<Range<u32>>,
+    pub faces_of_facets: FacesOfFacets,
+}
+
+/// The faces that the group of each facet became. A facet without a group became one, in its place among the others.
+#[derive(Debug, Default)]
+pub(crate) struct FacesOfFacets {
+    /// The facets in groups, ascending, and the faces of their groups.
+    members: Vec<(u32, Range<u32>)>,
+    /// Behind so many of them, what is added (modulo 2^32) to the number of a facet for that of its face.
+    shifts: Vec<u32>,
+}
+
+impl FacesOfFacets {
+    /// From the faces of each group.
+    fn new(groups: &Groups, faces: &[Range<u32>]) -> Self {
+        let of_group = |(facets, faces): (_, &Range<u32>)| {
+            let facets: &[u32] = facets;
+            facets.iter().map(|&f| (f, faces.clone())).collect::<Vec<_>>()
+        };
+        let mut members: Vec<_> = groups.members.iter().zip(faces).flat_map(of_group).collect();
+        members.sort_unstable_by_key(|member| member.0);
+        let mut shifts = vec![0u32];
+        let mut leaders = groups.leaders.iter().zip(faces).peekable();
+        let mut shift = 0u32;
+        for (facet, _) in &members {
+            let led = leaders.next_if(|(leader, _)| *leader == facet);
+            shift = shift.wrapping_add(led.map_or(0, |(_, faces)| faces.len() as u32)).wrapping_sub(1);
+            shifts.push(shift);
+        }
+        Self { members, shifts }
+    }
+
+    /// The faces of the group of a facet. O(log n).
+    pub(crate) fn of(&self, facet: u32) -> Range<u32> {
+        match self.members.binary_search_by_key(&facet, |member| member.0) {
+            Ok(i) => self.members[i].1.clone(),
+            Err(i) => {
+                let face = facet.wrapping_add(self.shifts[i]);
+                face..face + 1
+            }
+        }
+    }
 }
 
 impl Skeleton {
@@ -53,76 +93,30 @@ impl Skeleton {
                 piece.ends = piece.ends.map(|v| if v < n_base { v } else { ids[(v - n_base) as usize] });
             }
         }
-        let n_points = soup.geometry.n_points() as u32;
-        let ((vertices, compact), input_edges) = parallel::join(
-            || used_vertices(&fragments, groups, interner, soup),
-            || {
-                let pieces = fragments.iter().flat_map(|part| &part.pieces).map(|piece| piece.ends);
-                let between_points = pieces.filter(|ends| ends.iter().all(|&v| v < n_points));
-                soup.edges_between(between_points.map(|[a, b]| [a.min(b), a.max(b)]))
-            },
-        );
-        let n_cut: usize = fragments.iter().map(|part| part.half_edges.len()).sum();
-        let n_loops: usize = fragments.iter().map(|part| part.loop_ends.len()).sum();
-        let (n_facets, n_half_edges) = (soup.n_facets(), soup.facet_edges.indices().len());
-        let n_pieces: usize = fragments.iter().map(|part| part.pieces.len()).sum();
-        let n_faces = n_facets + fragments.iter().map(|part| part.face_ends.len()).sum::<usize>();
-        let n_edges = soup.edges.len() + n_pieces / 2;
-        let out = Self {
-            vertices,
-            edges: Vec::with_capacity(n_edges),
-            direction_of: Vec::with_capacity(n_edges),
-            soft: Vec::with_capacity(n_edges),
-            parents: Vec::with_capacity(n_faces),
-            loops: Cells::with_capacity(n_loops + n_facets, n_cut + n_half_edges),
-            face_loops: with_zero(n_faces),
-            parent_offsets: with_zero(n_faces),
-            faces_of_facet: vec![0..0; n_facets],
-            ..Self::default()
-        };
-        let whole = vec![NOT_SEEN; soup.edges.len()];
-        let ends = |k: usize| fragments.iter().flat_map(|part| &part.pieces).map(move |piece| piece.ends[k]);
-        let (tails, heads): (Vec<u32>, Vec<u32>) = (ends(0).collect(), ends(1).collect());
-        let pieces = HalfEdges::Listed { tails: &tails, heads: &heads };
-        let first_piece = half_edges::first_of_edge(compact.len(), pieces);
-        let edge_of_first = vec![NOT_SEEN; first_piece.len()];
-        let mut builder = Builder {
-            out,
-            soup,
-            cuts,
-            compact,
-            whole,
-            input_edges,
-            first_piece,
-            edge_of_first,
-            base: 0,
-            done: 0,
-            one_loop: Vec::new(),
-        };
-        let mut next = 0;
-        for part in &fragments {
-            for group in 0..part.group_ends.len() {
-                let leader = groups.leaders[next];
-                builder.push_untouched(groups, leader);
-                let first = builder.out.n_faces() as u32;
-                builder.push_group(part, group);
-                let faces = first..builder.out.n_faces() as u32;
-                let members = groups.members[next].iter();
-                members.for_each(|&f| builder.out.faces_of_facet[f as usize] = faces.clone());
-                next += 1;
-            }
-            builder.base += part.pieces.len() as u32;
-        }
-        builder.push_untouched(groups, n_facets as u32);
-        builder.out
+        let parts = Parts { fragments: &fragments, groups, soup };
+        let n_vertices = interner.vertices.len();
+        let ((vertices, compact), edges) =
+            parallel::join(|| used_vertices(&parts, interner), || Edges::new(&parts, cuts, n_vertices));
+        let (faces, edges) = parallel::join(|| faces(&parts), || edges.built(&parts, compact));
+        let Edges { edges, pieces, directions, soft, loops, .. } = edges;
+        Self { vertices, edges, pieces, directions, soft, loops, ..faces }
     }
 
     /// Lets go of what only stages 4 and 5 need, once the loops are those of the arrangement.
     pub(crate) fn drop_edges(&mut self) {
+        self.pieces = Vec::new();
         self.directions = Vec::new();
-        self.direction_of = Vec::new();
         self.soft = Vec::new();
-        self.faces_of_facet = Vec::new();
+        self.faces_of_facets = FacesOfFacets::default();
+    }
+
+    pub(crate) fn has_soft_edges(&self) -> bool {
+        self.soft.contains(&true)
+    }
+
+    /// Whether an edge is only a diagonal inside a polygon.
+    pub(crate) fn is_soft(&self, edge: usize) -> bool {
+        self.soft.get(edge) == Some(&true)
     }
 
     pub(crate) fn n_faces(&self) -> usize {
@@ -140,17 +134,22 @@ impl Skeleton {
             [self.parent_offsets[face as usize] as usize..self.parent_offsets[face as usize + 1] as usize]
     }
 
+    /// Whether all faces are pieces of one facet.
+    pub(crate) fn has_single_parents(&self) -> bool {
+        self.parents.len() + 1 == self.parent_offsets.len()
+    }
+
     /// The facet whose plane and orientation a face has.
     pub(crate) fn facet(&self, face: u32) -> u32 {
         self.parents[self.parent_offsets[face as usize] as usize].facet
     }
 
-    /// Direction of an edge from its smaller end to its larger.
+    /// Direction of an edge from its smaller end to its larger. O(log n).
     pub(crate) fn direction(&self, edge: u32, geometry: &Geometry) -> Direction {
         let ends = self.edges[edge as usize].map(|v| self.vertices[v as usize].def);
-        match (self.direction_of[edge as usize], ends) {
-            (NOT_SEEN, [VertexDef::Point(p), VertexDef::Point(q)]) => geometry.direction(Along::Edge([p, q])),
-            (at, _) => self.directions[at as usize],
+        match (self.pieces.binary_search(&edge), ends) {
+            (Err(_), [VertexDef::Point(p), VertexDef::Point(q)]) => geometry.direction(Along::Edge([p, q])),
+            (Ok(at) | Err(at), _) => self.directions[at],
         }
     }
 
@@ -161,6 +160,44 @@ impl Skeleton {
     }
 }
 
+/// All that the skeleton is made of.
+struct Parts<'a> {
+    fragments: &'a [Fragments],
+    groups: &'a Groups,
+    soup: &'a Soup,
+}
+
+/// What is done with faces one after the other.
+trait Take {
+    /// A facet that nothing touches.
+    fn facet(&mut self, soup: &Soup, facet: u32);
+    /// The faces of a group, and the number of the first piece of its part among those of all parts.
+    fn group(&mut self, soup: &Soup, part: &Fragments, group: usize, first_piece: u32);
+}
+
+impl Parts<'_> {
+    /// All faces in their order: groups stand in the places of their first facets.
+    fn each(&self, take: &mut impl Take) {
+        let (soup, is_member) = (self.soup, &self.groups.is_member);
+        let mut leaders = self.groups.leaders.iter();
+        let (mut done, mut first_piece) = (0, 0);
+        for part in self.fragments {
+            for (group, &leader) in (0..part.group_ends.len()).zip(&mut leaders) {
+                let before = (done..leader).filter(|&f| !is_member[f as usize]);
+                before.for_each(|f| take.facet(soup, f));
+                take.group(soup, part, group, first_piece);
+                done = leader;
+            }
+            first_piece += part.pieces.len() as u32;
+        }
+        (done..soup.n_facets() as u32).filter(|&f| !is_member[f as usize]).for_each(|f| take.facet(soup, f));
+    }
+
+    fn sum(&self, of: impl Fn(&Fragments) -> usize) -> usize {
+        self.fragments.iter().map(of).sum()
+    }
+}
+
 /// A list that begins with 0, with room for n more.
 fn with_zero(n: usize) -> Vec<u32> {
     let mut list = Vec::with_capacity(n + 1);
@@ -168,12 +205,86 @@ fn with_zero(n: usize) -> Vec<u32> {
     list
 }
 
+fn range_before(ends: &[u32], i: usize) -> Range<usize> {
+    let begin = if i == 0 { 0 } else { ends[i - 1] as usize };
+    begin..ends[i] as usize
+}
+
+/// The number of loops of all faces, and the facets that they are pieces of.
+fn faces(parts: &Parts<'_>) -> Skeleton {
+    let n = parts.soup.n_facets() + parts.sum(|part| part.face_ends.len());
+    let mut faces = Faces {
+        out: Skeleton {
+            face_loops: with_zero(n),
+            parents: Vec::with_capacity(n),
+            parent_offsets: with_zero(n),
+            ..Skeleton::default()
+        },
+        n_loops: 0,
+        of_groups: Vec::with_capacity(parts.groups.leaders.len()),
+    };
+    parts.each(&mut faces);
+    faces.out.faces_of_facets = FacesOfFacets::new(parts.groups, &faces.of_groups);
+    faces.out
+}
+
+struct Faces {
+    out: Skeleton,
+    n_loops: u32,
+    of_groups: Vec<Range<u32>>,
+}
+
+impl Faces {
+    fn push(&mut self, n_loops: usize, parents: &[FacetParent]) {
+        self.n_loops += n_loops as u32;
+        self.out.face_loops.push(self.n_loops);
+        self.out.parents.extend_from_slice(parents);
+        self.out.parent_offsets.push(self.out.parents.len() as u32);
+    }
+}
+
+impl Take for Faces {
+    fn facet(&mut self, soup: &Soup, facet: u32) {
+        let codes = &soup.facet_edges[facet as usize];
+        let n_loops = if codes.len() == 3 { 1 } else { loops_of(soup, codes).count() };
+        self.push(n_loops, &[FacetParent { facet, same_way: true }]);
+    }
+
+    fn group(&mut self, _: &Soup, part: &Fragments, group: usize, _: u32) {
+        let first = self.out.n_faces() as u32;
+        for face in range_before(&part.group_ends, group) {
+            let parents = &part.parents[range_before(&part.parent_ends, face)];
+            self.push(range_before(&part.face_ends, face).len(), parents);
+        }
+        self.of_groups.push(first..self.out.n_faces() as u32);
+    }
+}
+
+/// The loops of a facet.
+fn loops_of<'a>(soup: &'a Soup, codes: &'a [u32]) -> impl Iterator<Item = &'a [u32]> {
+    let mut rest = codes;
+    std::iter::from_fn(move || {
+        let first = soup.directed(*rest.first()?)[0];
+        let last = rest.iter().position(|&code| soup.directed(code)[1] == first).expect("loops are closed");
+        let (codes, after) = rest.split_at(last + 1);
+        rest = after;
+        Some(codes)
+    })
+}
+
 const NOT_SEEN: u32 = u32::MAX;
 
-struct Builder<'a> {
-    out: Skeleton,
+/// Edges and loops.
+struct Edges<'a> {
     soup: &'a Soup,
     cuts: &'a Cuts,
+    edges: Vec<[u32; 2]>,
+    pieces: Vec<u32>,
+    directions: Vec<Direction>,
+    soft: Vec<bool>,
+    /// Whether there may be soft edges.
+    any_soft: bool,
+    loops: Cells,
     /// New number of each vertex.
     compact: Vec<u32>,
     /// Edge that each input edge without inner points became.
@@ -184,73 +295,47 @@ struct Builder<'a> {
     first_piece: Vec<u32>,
     /// The edge that each first piece is.
     edge_of_first: Vec<u32>,
-    /// Number of the first piece of the part at hand.
-    base: u32,
-    /// Facets before this one are done.
-    done: u32,
     one_loop: Vec<u32>,
 }
 
-impl Builder<'_> {
-    /// The facets before `leader` that are in no group, each a face as it is.
-    fn push_untouched(&mut self, groups: &Groups, leader: u32) {
-        let soup = self.soup;
-        for facet in (self.done..leader).filter(|&f| !groups.is_member[f as usize]) {
-            let codes = &soup.facet_edges[facet as usize];
-            if let &[a, b, c] = codes {
-                let whole = [a, b, c].map(|code| 2 * self.whole_edge(code / 2) + code % 2);
-                self.out.loops.push(&whole);
-            } else {
-                self.push_untouched_polygon(codes);
-            }
-            let face = self.out.n_faces() as u32;
-            self.out.faces_of_facet[facet as usize] = face..face + 1;
-            self.close_face(&[FacetParent { facet, same_way: true }]);
-        }
-        self.done = leader;
-    }
-
-    fn push_untouched_polygon(&mut self, codes: &[u32]) {
-        let mut first = None;
-        for &code in codes {
-            let [tail, head] = self.soup.directed(code);
-            first.get_or_insert(tail);
-            let half_edge = 2 * self.whole_edge(code / 2) + code % 2;
-            self.one_loop.push(half_edge);
-            if first == Some(head) {
-                self.close_loop();
-                first = None;
-            }
-        }
-    }
-
-    /// The faces of a group.
-    fn push_group(&mut self, part: &Fragments, group: usize) {
-        let begin = |ends: &[u32], i: usize| if i == 0 { 0 } else { ends[i - 1] as usize };
-        for face in begin(&part.group_ends, group)..part.group_ends[group] as usize {
-            for l in begin(&part.face_ends, face)..part.face_ends[face] as usize {
-                for &h in &part.half_edges[begin(&part.loop_ends, l)..part.loop_ends[l] as usize] {
-                    let half_edge = match h & WHOLE {
-                        0 => self.half_edge(part, h / 2) ^ (h % 2),
-                        _ => 2 * self.whole_edge((h ^ WHOLE) / 2) + h % 2,
-                    };
-                    self.one_loop.push(half_edge);
-                }
-                self.close_loop();
-            }
-            self.close_face(&part.parents[begin(&part.parent_ends, face)..part.parent_ends[face] as usize]);
+impl<'a> Edges<'a> {
+    fn new(parts: &Parts<'a>, cuts: &'a Cuts, n_vertices: usize) -> Self {
+        let soup = parts.soup;
+        let n_pieces = parts.sum(|part| part.pieces.len());
+        let n_edges = soup.edges.len() + n_pieces / 2;
+        let n_loops = soup.n_facets() + parts.sum(|part| part.loop_ends.len());
+        let n_half_edges = soup.facet_edges.indices().len() + parts.sum(|part| part.half_edges.len());
+        let pieces = || parts.fragments.iter().flat_map(|part| &part.pieces);
+        let n_points = soup.geometry.n_points() as u32;
+        let between_points =
+            pieces().map(|piece| piece.ends).filter(|ends| ends.iter().all(|&v| v < n_points));
+        let (tails, heads): (Vec<u32>, Vec<u32>) =
+            pieces().map(|piece| (piece.ends[0], piece.ends[1])).unzip();
+        let half_edges = HalfEdges::Listed { tails: &tails, heads: &heads };
+        let first_piece = half_edges::first_of_edge(n_vertices, half_edges);
+        Self {
+            soup,
+            cuts,
+            edges: Vec::with_capacity(n_edges),
+            pieces: Vec::new(),
+            directions: Vec::new(),
+            soft: Vec::new(),
+            any_soft: soup.has_soft_edges() || pieces().any(|piece| piece.soft),
+            loops: Cells::with_capacity(n_loops, n_half_edges),
+            compact: Vec::new(),
+            whole: vec![NOT_SEEN; soup.edges.len()],
+            input_edges: soup.edges_between(between_points.map(|[a, b]| [a.min(b), a.max(b)])),
+            edge_of_first: vec![NOT_SEEN; first_piece.len()],
+            first_piece,
+            one_loop: Vec::new(),
         }
     }
 
-    fn close_loop(&mut self) {
-        self.out.loops.push(&self.one_loop);
-        self.one_loop.clear();
-    }
-
-    fn close_face(&mut self, parents: &[FacetParent]) {
-        self.out.face_loops.push(self.out.loops.len() as u32);
-        self.out.parents.extend_from_slice(parents);
-        self.out.parent_offsets.push(self.out.parents.len() as u32);
+    /// With all faces, vertices getting new numbers.
+    fn built(mut self, parts: &Parts<'_>, compact: Vec<u32>) -> Self {
+        self.compact = compact;
+        parts.each(&mut self);
+        self
     }
 
     /// The edge that an input edge without inner points is. Its ends ascend, and so do their new numbers.
@@ -265,55 +350,94 @@ impl Builder<'_> {
         id
     }
 
-    /// The half-edge of a piece in its direction. A piece with the ends of an unsplit input edge is that edge.
-    fn half_edge(&mut self, part: &Fragments, piece: u32) -> u32 {
-        let first = self.first_piece[(self.base + piece) as usize] as usize;
+    /// The half-edge that a directed edge of the input is.
+    fn whole_half_edge(&mut self, code: u32) -> u32 {
+        2 * self.whole_edge(code / 2) + code % 2
+    }
+
+    /// The half-edge of a piece, the first of its part being `base`, in its direction. A piece with the ends of an unsplit
+    /// input edge is that edge.
+    fn half_edge(&mut self, part: &Fragments, piece: u32, base: u32) -> u32 {
+        let first = self.first_piece[(base + piece) as usize] as usize;
         let piece = &part.pieces[piece as usize];
         let [a, b] = piece.ends;
         if self.edge_of_first[first] == NOT_SEEN {
             self.edge_of_first[first] = self.edge_of_piece(piece);
         }
         let id = self.edge_of_first[first];
-        self.out.soft[id as usize] &= piece.soft;
+        if self.any_soft {
+            self.soft[id as usize] &= piece.soft;
+        }
         2 * id + u32::from(a > b)
     }
 
     fn edge_of_piece(&mut self, piece: &Piece) -> u32 {
         let [a, b] = piece.ends;
         let ends = [a.min(b), a.max(b)];
-        let is_whole = |&edge: &u32| self.cuts.inner[edge as usize].is_empty();
+        let is_whole = |&edge: &u32| self.cuts.inner.of(edge).is_empty();
         if let Some(edge) = self.input_edges.get(&ends).copied().filter(is_whole) {
             return self.whole_edge(edge);
         }
         let id = self.push_edge(ends.map(|v| self.compact[v as usize]), true);
-        self.out.direction_of[id as usize] = self.out.directions.len() as u32;
-        self.out.directions.push(if a < b { piece.direction } else { piece.direction.opposite() });
+        self.pieces.push(id);
+        self.directions.push(if a < b { piece.direction } else { piece.direction.opposite() });
         id
     }
 
     fn push_edge(&mut self, ends: [u32; 2], soft: bool) -> u32 {
-        self.out.edges.push(ends);
-        self.out.direction_of.push(NOT_SEEN);
-        self.out.soft.push(soft);
-        self.out.edges.len() as u32 - 1
+        self.edges.push(ends);
+        if self.any_soft {
+            self.soft.push(soft);
+        }
+        self.edges.len() as u32 - 1
+    }
+}
+
+impl Take for Edges<'_> {
+    fn facet(&mut self, soup: &Soup, facet: u32) {
+        let codes = &soup.facet_edges[facet as usize];
+        if let &[a, b, c] = codes {
+            let cycle = [a, b, c].map(|code| self.whole_half_edge(code));
+            self.loops.push(&cycle);
+            return;
+        }
+        for codes in loops_of(soup, codes) {
+            self.one_loop.clear();
+            for &code in codes {
+                let half_edge = self.whole_half_edge(code);
+                self.one_loop.push(half_edge);
+            }
+            self.loops.push(&self.one_loop);
+        }
+    }
+
+    fn group(&mut self, _: &Soup, part: &Fragments, group: usize, first_piece: u32) {
+        for l in range_before(&part.group_ends, group).flat_map(|face| range_before(&part.face_ends, face)) {
+            self.one_loop.clear();
+            for &h in &part.half_edges[range_before(&part.loop_ends, l)] {
+                let half_edge = match h & WHOLE {
+                    0 => self.half_edge(part, h / 2, first_piece) ^ (h % 2),
+                    _ => self.whole_half_edge(h ^ WHOLE),
+                };
+                self.one_loop.push(half_edge);
+            }
+            self.loops.push(&self.one_loop);
+        }
     }
 }
 
 /// The vertices that edges end at, in their order, and the new number of each (only those of used ones count).
-fn used_vertices(
-    fragments: &[Fragments],
-    groups: &Groups,
-    interner: Interner,
-    soup: &Soup,
-) -> (Vec<Vertex>, Vec<u32>) {
+fn used_vertices(parts: &Parts<'_>, interner: Interner) -> (Vec<Vertex>, Vec<u32>) {
+    let soup = parts.soup;
     let mut used = vec![false; interner.vertices.len()];
-    for part in fragments {
+    for part in parts.fragments {
         part.pieces.iter().for_each(|piece| piece.ends.iter().for_each(|&v| used[v as usize] = true));
         for &h in part.half_edges.iter().filter(|h| *h & WHOLE != 0) {
             used[soup.directed(h ^ WHOLE)[0] as usize] = true;
         }
     }
-    for (edges, facet) in soup.facet_edges.iter().zip(0..).filter(|(_, f)| !groups.is_member[*f as usize]) {
+    let is_member = &parts.groups.is_member;
+    for (edges, facet) in soup.facet_edges.iter().zip(0..).filter(|(_, f)| !is_member[*f as usize]) {
         match edges.len() {
             3 => soup.geometry.base(facet).iter().for_each(|&p| used[p as usize] = true),
             _ => edges.iter().for_each(|&code| used[soup.directed(code)[0] as usize] = true),

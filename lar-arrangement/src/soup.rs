@@ -6,10 +6,12 @@
 
 mod doubles;
 
+use crate::boxes::Aabb;
 use crate::canonical::Tolerance;
+use crate::counting::offsets as offsets_of_lengths;
 use crate::error::ArrangementError;
 use crate::grid::Grid;
-use crate::grid_points::PointTable;
+use crate::grid_points::{PointTable, Unified};
 use crate::half_edges::{self, HalfEdges, MANY};
 use crate::kernel::{Geometry, Sign};
 use crate::parallel;
@@ -17,6 +19,9 @@ use crate::polygon::{Polygon, Shape};
 use crate::split::offsets;
 use lar_core::{Cells, Surface};
 use rustc_hash::FxHashMap;
+
+/// Points a chunk of work.
+const POINTS_A_CHUNK: usize = 1 << 14;
 
 /// A face of the input that a polygon stands for: `sign` is −1 when the polygon is turned the other way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -48,20 +53,38 @@ impl Placed {
     /// coordinate of some magnitude may be off in a surface.
     pub(crate) fn snapped(
         surfaces: &[Surface],
-        error: impl Fn(&Surface, f64) -> f64,
+        error: impl Fn(&Surface, f64) -> f64 + Sync + Send,
     ) -> Result<Self, ArrangementError> {
         let grid = fitted_grid(surfaces)?;
-        let (points, point_ids, point_of) = unified_points(surfaces, &grid);
-        let mut tolerances = vec![Tolerance::new(grid.coarseness() / 2.0); points.len()];
-        for (surface, of) in surfaces.iter().zip(&point_of) {
-            for (p, &id) in surface.points.iter().zip(of) {
-                let size = p.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
-                let worth = Tolerance::new(error(surface, size) / grid.step());
-                tolerances[id as usize] = tolerances[id as usize].max(worth);
+        // The vertices of all surfaces are numbered one after the other.
+        let begins = offsets_of_lengths(surfaces.iter().map(|surface| surface.points.len() as u32));
+        let snapped = parallel::map_lists(&begins, |surface, v| grid.snap(surfaces[surface].points.xyz(v)));
+        let Unified { table, points, number } = Unified::new(snapped);
+        let least = Tolerance::new(grid.coarseness() / 2.0);
+        let mut tolerances = parallel::map_lists(&begins, |surface, v| {
+            let size = surfaces[surface].points.xyz(v).iter().fold(0.0, |size: f64, x| size.max(x.abs()));
+            least.max(Tolerance::new(error(&surfaces[surface], size) / grid.step()))
+        });
+        if !number.is_empty() {
+            let mut of_points = vec![Tolerance::default(); points.len()];
+            for (&id, own) in number.iter().zip(tolerances) {
+                of_points[id as usize] = of_points[id as usize].max(own);
             }
+            tolerances = of_points;
         }
-        let geometry = Geometry::new(points);
-        Ok(Self { grid, geometry, point_ids, point_of, tolerances, plane_of_face: Vec::new() })
+        let point_of =
+            begins.windows(2).map(|range| match number.get(range[0] as usize..range[1] as usize) {
+                Some(of) => of.to_vec(),
+                None => (range[0]..range[1]).collect(),
+            });
+        Ok(Self {
+            grid,
+            geometry: Geometry::new(points),
+            point_ids: table,
+            point_of: point_of.collect(),
+            tolerances,
+            plane_of_face: Vec::new(),
+        })
     }
 }
 
@@ -134,7 +157,7 @@ impl Soup {
                 }
                 _ => builder.push_faces(solid, surface, point_of, planes),
             }
-            coefficients.push((0..surface.n_faces()).map(|f| surface.coefficient(f)).collect());
+            coefficients.push(parallel::map_light(surface.n_faces(), |f| surface.coefficient(f)));
         }
         let Builder { geometry, facets, polygon_flat, polygon_plane, parents, .. } = builder;
         let Builder { degenerate, triangulated, bend, .. } = builder;
@@ -172,6 +195,10 @@ impl Soup {
     /// Whether an edge is only a diagonal inside a nearly planar polygon.
     pub(crate) fn is_soft(&self, edge: u32) -> bool {
         !self.soft.is_empty() && self.soft[edge as usize]
+    }
+
+    pub(crate) fn has_soft_edges(&self) -> bool {
+        !self.soft.is_empty()
     }
 
     /// Makes an edge one that may disappear.
@@ -263,6 +290,11 @@ impl Soup {
         self.polygon_parents(self.facet_polygon[facet as usize])
     }
 
+    /// Whether all polygons have one parent.
+    pub(crate) fn has_single_parents(&self) -> bool {
+        self.parents.len() == self.polygon_flat.len()
+    }
+
     /// Parents of a polygon.
     pub(crate) fn polygon_parents(&self, polygon: u32) -> &[Parent] {
         let p = polygon as usize;
@@ -271,7 +303,7 @@ impl Soup {
 }
 
 fn fitted_grid(surfaces: &[Surface]) -> Result<Grid, ArrangementError> {
-    let (mut lo, mut hi) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    let mut all = Aabb::EMPTY;
     for surface in surfaces {
         if surface.points.dim() != 3 {
             return Err(ArrangementError::Dimension {
@@ -279,21 +311,9 @@ fn fitted_grid(surfaces: &[Surface]) -> Result<Grid, ArrangementError> {
                 dim: surface.points.dim(),
             });
         }
-        for (v, p) in surface.points.iter().enumerate() {
-            for k in 0..3 {
-                if !p[k].is_finite() {
-                    return Err(ArrangementError::NotFinite {
-                        solid: surface.name.clone(),
-                        vertex: (v as u32).into(),
-                        value: p[k],
-                    });
-                }
-                lo[k] = lo[k].min(p[k]);
-                hi[k] = hi[k].max(p[k]);
-            }
-        }
+        all = all.joined(&hull(surface)?);
         let n = surface.points.len();
-        let are_known = |corners: &[u32]| corners.iter().all(|&v| (v as usize) < n);
+        let are_known = |corners: &[u32]| parallel::all(corners.len(), |i| (corners[i] as usize) < n);
         if surface.triangles().is_some_and(are_known) {
             continue;
         }
@@ -308,22 +328,28 @@ fn fitted_grid(surfaces: &[Surface]) -> Result<Grid, ArrangementError> {
             }
         }
     }
-    Ok(if lo[0] <= hi[0] { Grid::fitted(lo, hi) } else { Grid::fitted([0.0; 3], [0.0; 3]) })
+    let is_empty = all.lo[0] > all.hi[0];
+    Ok(if is_empty { Grid::fitted([0.0; 3], [0.0; 3]) } else { Grid::fitted(all.lo, all.hi) })
 }
 
-/// Distinct grid points in first-seen order, their numbers, and for each surface the grid point of each of its
-/// vertices.
-fn unified_points(surfaces: &[Surface], grid: &Grid) -> (Vec<[i64; 3]>, PointTable, Vec<Vec<u32>>) {
-    let n = surfaces.iter().map(|s| s.points.len()).sum();
-    let (mut points, mut ids) = (Vec::with_capacity(n), PointTable::with_capacity(n));
-    let of = surfaces
-        .iter()
-        .map(|surface| {
-            let snapped = surface.points.iter().map(|p| grid.snap([p[0], p[1], p[2]]));
-            snapped.map(|p| ids.number(p, &mut points)).collect()
+/// The box around the points of a surface; refuses those that are not finite.
+fn hull(surface: &Surface) -> Result<Aabb, ArrangementError> {
+    let (n_chunks, range) = parallel::chunks(surface.points.len(), POINTS_A_CHUNK);
+    let hulls = parallel::map(n_chunks, |chunk| {
+        range(chunk).try_fold(Aabb::EMPTY, |all, v| {
+            let at = surface.points.xyz(v);
+            match at.iter().find(|x| !x.is_finite()) {
+                Some(x) => Err((v, *x)),
+                None => Ok(all.joined(&Aabb { lo: at, hi: at })),
+            }
         })
-        .collect();
-    (points, ids, of)
+    });
+    let all = hulls.into_iter().try_fold(Aabb::EMPTY, |all, hull| hull.map(|hull| all.joined(&hull)));
+    all.map_err(|(v, value)| ArrangementError::NotFinite {
+        solid: surface.name.clone(),
+        vertex: (v as u32).into(),
+        value,
+    })
 }
 
 /// Facets as they come.
@@ -362,12 +388,12 @@ impl Facets {
     /// Adds the newest facets of a geometry, n triangles, each a polygon of its own.
     fn push_triangles(&mut self, n: usize, geometry: &Geometry, first_polygon: u32) {
         let begin = self.n_half_edges();
-        let end = u32::try_from(begin as usize + 3 * n).expect("fewer than 2^32 half-edges");
-        self.offsets.extend((begin..end).step_by(3).map(|begin| begin + 3));
+        u32::try_from(begin as usize + 3 * n).expect("fewer than 2^32 half-edges");
+        parallel::extend_light(&mut self.offsets, n, |i| begin + 3 * (i as u32 + 1));
         if let Some(ends) = &mut self.ends {
             push_ends(ends, &geometry.bases()[self.polygon.len()..]);
         }
-        self.polygon.extend(first_polygon..first_polygon + n as u32);
+        parallel::extend_light(&mut self.polygon, n, |i| first_polygon + i as u32);
     }
 
     /// Adds a facet, which the geometry has or is given next, and returns its half-edges.
@@ -456,11 +482,10 @@ impl Builder<'_> {
         self.degenerate += (n - n_proper) as u32;
         let polygon = self.polygon_flat.len() as u32;
         self.facets.push_triangles(n_proper, &self.geometry, polygon);
-        let parent = |(face, polygon)| (polygon, Parent { solid: solid as u32, face, sign: 1 });
-        match proper {
-            None => self.parents.extend((0..n as u32).zip(polygon..).map(parent)),
-            Some(faces) => self.parents.extend(faces.into_iter().zip(polygon..).map(parent)),
-        }
+        parallel::extend_light(&mut self.parents, n_proper, |i| {
+            let face = proper.as_ref().map_or(i as u32, |faces| faces[i]);
+            (polygon + i as u32, Parent { solid: solid as u32, face, sign: 1 })
+        });
         self.polygon_flat.resize(polygon as usize + n_proper, true);
     }
 

@@ -4,22 +4,54 @@
 use crate::crossing::{Contacts, Segment};
 use crate::interner::Interner;
 use crate::kernel::{Along, Sign};
-use crate::parallel;
 use crate::soup::Soup;
-use lar_core::Cells;
 
 /// The contacts of all facets, by edge and by facet.
 #[derive(Debug)]
 pub(crate) struct Cuts {
-    /// Points inside each edge, from its first end to its second.
-    pub inner: Cells,
-    /// The edges that have any, ascending.
-    pub split_edges: Vec<u32>,
-    /// Sorted by facet.
-    segments: Vec<Segment>,
-    segment_offsets: Vec<u32>,
-    touches: Vec<(u32, u32)>,
-    touch_offsets: Vec<u32>,
+    /// Points inside the edges, from the first end to the second.
+    pub inner: Sparse<u32>,
+    /// By facet.
+    segments: Sparse<Segment>,
+    touches: Sparse<u32>,
+}
+
+/// Lists for some of many things.
+#[derive(Debug)]
+pub(crate) struct Sparse<T> {
+    /// What has a list, ascending.
+    keys: Vec<u32>,
+    /// The list of `keys[i]` is `items[offsets[i]..offsets[i + 1]]`.
+    offsets: Vec<u32>,
+    items: Vec<T>,
+}
+
+impl<T> Sparse<T> {
+    /// Lists of entries, these in the order of what they are of.
+    fn new<E>(sorted: Vec<E>, key: impl Fn(&E) -> u32, item: impl Fn(E) -> T) -> Self {
+        let (mut keys, mut offsets) = (Vec::new(), Vec::new());
+        for (key, at) in sorted.iter().map(key).zip(0..) {
+            if keys.last() != Some(&key) {
+                keys.push(key);
+                offsets.push(at);
+            }
+        }
+        offsets.push(sorted.len() as u32);
+        Self { keys, offsets, items: sorted.into_iter().map(item).collect() }
+    }
+
+    /// What has a list that is not empty, ascending.
+    pub(crate) fn keys(&self) -> &[u32] {
+        &self.keys
+    }
+
+    /// The list of one thing. O(log n).
+    pub(crate) fn of(&self, key: u32) -> &[T] {
+        match self.keys.binary_search(&key) {
+            Ok(i) => &self.items[self.offsets[i] as usize..self.offsets[i + 1] as usize],
+            Err(_) => &[],
+        }
+    }
 }
 
 impl Cuts {
@@ -38,33 +70,26 @@ impl Cuts {
         let mut touches: Vec<(u32, u32)> = contacts.touches.into_iter().map(|(f, v)| (f, id(v))).collect();
         touches.sort_unstable();
         touches.dedup();
-        let n_facets = soup.n_facets();
-        let mut split_edges: Vec<u32> = splits.iter().map(|s| s.0).collect();
-        split_edges.dedup();
-        let of_facets = || {
-            let segment_offsets = offsets(n_facets, segments.iter().map(|s| s.facet));
-            (segment_offsets, offsets(n_facets, touches.iter().map(|t| t.0)))
-        };
-        let (inner, (segment_offsets, touch_offsets)) =
-            parallel::join(|| sorted_along_edges(soup, &splits, interner), of_facets);
-        Self { split_edges, inner, segment_offsets, touch_offsets, segments, touches }
+        Self {
+            inner: sorted_along_edges(soup, splits, interner),
+            segments: Sparse::new(segments, |s| s.facet, |s| s),
+            touches: Sparse::new(touches, |t| t.0, |t| t.1),
+        }
     }
 
-    /// The facets with segments inside, one after the other, some more than once.
-    pub(crate) fn cut_facets(&self) -> impl Iterator<Item = u32> + '_ {
-        self.segments.iter().map(|s| s.facet)
+    /// The facets with segments inside, ascending.
+    pub(crate) fn cut_facets(&self) -> &[u32] {
+        self.segments.keys()
     }
 
     /// The segments inside a facet.
     pub(crate) fn segments(&self, facet: u32) -> &[Segment] {
-        let f = facet as usize;
-        &self.segments[self.segment_offsets[f] as usize..self.segment_offsets[f + 1] as usize]
+        self.segments.of(facet)
     }
 
     /// The points inside a facet where another only touches it.
-    pub(crate) fn touches(&self, facet: u32) -> impl Iterator<Item = u32> + '_ {
-        let f = facet as usize;
-        self.touches[self.touch_offsets[f] as usize..self.touch_offsets[f + 1] as usize].iter().map(|t| t.1)
+    pub(crate) fn touches(&self, facet: u32) -> &[u32] {
+        self.touches.of(facet)
     }
 }
 
@@ -80,23 +105,20 @@ pub(crate) fn offsets(n: usize, sorted: impl Iterator<Item = u32>) -> Vec<u32> {
     offsets
 }
 
-/// The points inside each edge, from its first end to its second.
-fn sorted_along_edges(soup: &Soup, splits: &[(u32, u32)], interner: &Interner) -> Cells {
+/// The points inside edges, from the first end to the second.
+fn sorted_along_edges(soup: &Soup, splits: Vec<(u32, u32)>, interner: &Interner) -> Sparse<u32> {
     let geometry = &soup.geometry;
     let vertex = |v: u32| &interner.vertices[v as usize];
-    let mut inner: Vec<u32> = splits.iter().map(|s| s.1).collect();
-    let mut rest = inner.as_mut_slice();
-    for same in splits.chunk_by(|a, b| a.0 == b.0) {
-        let (on_edge, after) = rest.split_at_mut(same.len());
-        rest = after;
+    let mut inner = Sparse::new(splits, |s| s.0, |s| s.1);
+    for (&edge, range) in inner.keys.iter().zip(inner.offsets.windows(2)) {
+        let on_edge = &mut inner.items[range[0] as usize..range[1] as usize];
         if on_edge.len() > 1 {
-            let ends = soup.edges[same[0].0 as usize];
-            let (axis, sign) = geometry.axis_of(&geometry.direction(Along::Edge(ends)));
+            let (axis, sign) = geometry.axis_of(&geometry.direction(Along::Edge(soup.edges[edge as usize])));
             on_edge.sort_by(|&a, &b| geometry.cmp_coordinate(vertex(a), vertex(b), axis));
             if sign == Sign::Negative {
                 on_edge.reverse();
             }
         }
     }
-    Cells::from_parts(offsets(soup.edges.len(), splits.iter().map(|s| s.0)), inner)
+    inner
 }

@@ -50,10 +50,9 @@ impl Stars {
         if !is_clean.contains(&true) {
             return Self { is_clean };
         }
-        for (ends, users) in soup.edges.iter().zip(&soup.facets_of_edge) {
-            if users.iter().any(|&facet| facet >= MANY) {
-                ends.iter().for_each(|&p| is_clean[p as usize] = false);
-            }
+        let is_odd = |edge: u32| soup.facets_of_edge[edge as usize].iter().any(|&facet| facet >= MANY);
+        for edge in parallel::select(soup.edges.len(), is_odd) {
+            soup.edges[edge as usize].iter().for_each(|&p| is_clean[p as usize] = false);
         }
         for facet in charts.without() {
             let edges = &soup.facet_edges[facet as usize];

@@ -17,8 +17,7 @@
 //!                 |             joined: next(f1) with before(f2), next(f2) with before(f3), …
 //! ```
 
-use crate::counting::joined;
-use crate::kernel::{Geometry, Sign};
+use crate::kernel::{Direction, Geometry, Sign};
 use crate::parallel;
 use crate::skeleton::Skeleton;
 use crate::union_find::UnionFind;
@@ -30,7 +29,7 @@ use std::ops::Range;
 /// the face's loop runs against the edge. A face may stand there twice (both sides of a slit).
 pub(crate) fn rings(skeleton: &Skeleton, geometry: &Geometry) -> Cells {
     let n = skeleton.edges.len();
-    let (offsets, mut entries) = faces_at_edges(n, &skeleton.loops, &skeleton.face_loops).into_parts();
+    let (offsets, mut entries) = faces_at_edges(n, &skeleton.loops, &skeleton.face_loops);
     let of = |edge: u32| offsets[edge as usize] as usize..offsets[edge as usize + 1] as usize;
     let crowded: Vec<u32> = (0..n as u32).filter(|&edge| of(edge).len() > 2).collect();
     let (n_chunks, range) = parallel::chunks(crowded.len(), 1024);
@@ -56,41 +55,55 @@ pub(crate) fn rings(skeleton: &Skeleton, geometry: &Geometry) -> Cells {
 
 /// For every edge the faces that have it in a loop, ascending: 2 · face, + 1 where the loop runs against the edge. The loops of
 /// face f are `face_loops[f]..face_loops[f + 1]`. O(size of the loops) for each thread.
-pub(crate) fn faces_at_edges(n_edges: usize, loops: &Cells, face_loops: &[u32]) -> Cells {
-    let parts = parallel::map(parallel::n_threads(), |part| {
-        faces_at(parallel::part_of(n_edges, part), loops, face_loops)
+pub(crate) fn faces_at_edges(n_edges: usize, loops: &Cells, face_loops: &[u32]) -> (Vec<u32>, Vec<u32>) {
+    let n_parts = parallel::n_threads();
+    let edges = |part: usize| parallel::part_of(n_edges, part);
+    // Behind the 0, the place of edge i is where its next entry goes within its part; in the end, where they end.
+    let mut offsets = vec![0u32; n_edges + 1];
+    let parts = parallel::cut(&mut offsets[1..], (0..n_parts).map(|part| edges(part).len()));
+    let counted = parallel::map_each(parts, |part, ends| {
+        let place = place_in(edges(part));
+        loops.indices().iter().filter_map(|&h| place(h)).for_each(|i| ends[i] += 1);
+        let n = ends.iter_mut().fold(0, |n, end| n + std::mem::replace(end, n));
+        (ends, n as usize)
     });
-    let (offsets, entries) = joined(parts);
-    Cells::from_parts(offsets, entries)
-}
-
-/// The same for some of the edges.
-fn faces_at(edges: Range<usize>, loops: &Cells, face_loops: &[u32]) -> (Vec<u32>, Vec<u32>) {
-    let place = |h: u32| ((h / 2) as usize).checked_sub(edges.start).filter(|&place| place < edges.len());
-    // offsets[i + 1] is where the next entry of edge i goes; in the end, where those of i + 1 begin.
-    let mut offsets = vec![0u32; edges.len() + 2];
-    loops.indices().iter().filter_map(|&h| place(h)).for_each(|i| offsets[i + 2] += 1);
-    for i in 2..offsets.len() {
-        offsets[i] += offsets[i - 1];
-    }
-    let mut entries = vec![0; offsets[edges.len() + 1] as usize];
-    for (range, face) in face_loops.windows(2).zip(0u32..) {
-        let [begin, end] = [range[0], range[1]].map(|l| loops.offsets()[l as usize] as usize);
-        for &h in &loops.indices()[begin..end] {
-            if let Some(i) = place(h) {
-                let at = &mut offsets[i + 1];
-                entries[*at as usize] = 2 * face + h % 2;
-                *at += 1;
+    let lengths: Vec<usize> = counted.iter().map(|part| part.1).collect();
+    let mut entries = vec![0; lengths.iter().sum()];
+    let mut begin = 0;
+    let parts = counted.into_iter().zip(parallel::cut(&mut entries, lengths.into_iter())).map(
+        |((ends, n), entries)| {
+            begin += n as u32;
+            (begin - n as u32, ends, entries)
+        },
+    );
+    parallel::map_each(parts.collect(), |part, (begin, ends, entries)| {
+        let place = place_in(edges(part));
+        for (range, face) in face_loops.windows(2).zip(0u32..) {
+            let [begin, end] = [range[0], range[1]].map(|l| loops.offsets()[l as usize] as usize);
+            for &h in &loops.indices()[begin..end] {
+                if let Some(i) = place(h) {
+                    let at = &mut ends[i];
+                    entries[*at as usize] = 2 * face + h % 2;
+                    *at += 1;
+                }
             }
         }
-    }
-    offsets.pop();
+        if begin > 0 {
+            ends.iter_mut().for_each(|end| *end += begin);
+        }
+    });
     (offsets, entries)
+}
+
+/// The place of a half-edge's edge among some, if it is one of them.
+fn place_in(edges: Range<usize>) -> impl Fn(u32) -> Option<usize> {
+    move |h| ((h / 2) as usize).checked_sub(edges.start).filter(|&place| place < edges.len())
 }
 
 fn sort_ring(ring: &mut [u32], edge: u32, skeleton: &Skeleton, geometry: &Geometry) {
     let first = ring[0];
-    let half = |entry: u32| match turn(first, entry, edge, skeleton, geometry) {
+    let along = skeleton.direction(edge, geometry);
+    let half = |entry: u32| match turn(first, entry, &along, skeleton, geometry) {
         Sign::Zero if opposite(first, entry, skeleton, geometry) => 2u8,
         Sign::Zero => 0,
         Sign::Positive => 1,
@@ -98,7 +111,7 @@ fn sort_ring(ring: &mut [u32], edge: u32, skeleton: &Skeleton, geometry: &Geomet
     };
     let mut keyed: Vec<(u8, u32)> = ring.iter().map(|&entry| (half(entry), entry)).collect();
     keyed.sort_by(|a, b| {
-        a.0.cmp(&b.0).then_with(|| match turn(a.1, b.1, edge, skeleton, geometry) {
+        a.0.cmp(&b.0).then_with(|| match turn(a.1, b.1, &along, skeleton, geometry) {
             Sign::Positive => Ordering::Less,
             Sign::Zero => Ordering::Equal,
             Sign::Negative => Ordering::Greater,
@@ -109,13 +122,13 @@ fn sort_ring(ring: &mut [u32], edge: u32, skeleton: &Skeleton, geometry: &Geomet
     }
 }
 
-/// Sign of the turn about the edge that leads from one face to another by less than half a turn.
-pub(crate) fn turn(a: u32, b: u32, edge: u32, skeleton: &Skeleton, geometry: &Geometry) -> Sign {
+/// Sign of the turn about an edge of some direction that leads from one face to another by less than half a turn.
+pub(crate) fn turn(a: u32, b: u32, along: &Direction, skeleton: &Skeleton, geometry: &Geometry) -> Sign {
     let (f, g) = (skeleton.facet(a / 2), skeleton.facet(b / 2));
     if f == g {
         return Sign::Zero;
     }
-    let sign = geometry.turn_about(f, g, &skeleton.direction(edge, geometry));
+    let sign = geometry.turn_about(f, g, along);
     if (a ^ b).is_multiple_of(2) { sign } else { -sign }
 }
 

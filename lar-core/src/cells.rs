@@ -93,6 +93,7 @@ impl Cells {
     ///
     /// # Panics
     /// When the cells would hold 2^32 indices or more.
+    #[inline]
     pub fn push(&mut self, cell: &[u32]) {
         self.indices.extend_from_slice(cell);
         self.offsets.push(offset(self.indices.len()));
@@ -125,6 +126,7 @@ impl Cells {
     }
 }
 
+#[inline]
 fn offset(n: usize) -> u32 {
     u32::try_from(n).expect("cells hold fewer than 2^32 indices")
 }

@@ -52,6 +52,7 @@ impl Points {
 
     /// Number of points, n.
     #[must_use]
+    #[inline]
     pub fn len(&self) -> usize {
         self.coords.len().checked_div(self.dim).unwrap_or(0)
     }
@@ -67,6 +68,7 @@ impl Points {
     /// # Panics
     /// When `i` is not below `len()`.
     #[must_use]
+    #[inline]
     pub fn point(&self, i: usize) -> &[f64] {
         &self.coords[i * self.dim..(i + 1) * self.dim]
     }
@@ -76,6 +78,7 @@ impl Points {
     /// # Panics
     /// When `i` is not below `len()` or `dim()` is not 3.
     #[must_use]
+    #[inline]
     pub fn xyz(&self, i: usize) -> [f64; 3] {
         let p = self.point(i);
         assert_eq!(self.dim, 3, "xyz() of points of {} coordinates", self.dim);

@@ -76,6 +76,7 @@ impl Surface {
 
     /// The coefficient of face `f` in the boundary of the solid.
     #[must_use]
+    #[inline]
     pub fn coefficient(&self, f: usize) -> i8 {
         self.coefficients[f]
     }

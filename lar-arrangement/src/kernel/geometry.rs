@@ -254,7 +254,7 @@ impl Geometry {
         parallel::extend_light(&mut normals, n, |i| self.grid_normal(self.bases[first + i]));
         self.normals = normals;
         let is_proper = |normal: &[f64; 3]| *normal != [0.0; 3];
-        if self.normals[first..].iter().all(is_proper) {
+        if parallel::all(n, |i| is_proper(&self.normals[first + i])) {
             return None;
         }
         let proper: Vec<u32> =

@@ -109,8 +109,10 @@ impl PlanarArrangement {
         (0..).zip(merged.old_half_edge.iter()).for_each(|(new, &h)| new_edge[(h / 2) as usize] = new);
         self.edge_at = self.edge_at.renumbered(&self.chains, &new_edge);
         self.carrier_of = merged.old_half_edge.iter().map(|&h| self.carrier_of[(h / 2) as usize]).collect();
-        let boundaries =
-            vec![boundary_1(points.len(), merged.edges.clone()), boundary_2(merged.edges.len(), &merged)];
+        let boundaries = vec![
+            boundary_1(points.len(), merged.edges.clone()),
+            boundary_2(merged.edges.len(), &merged.loops, &merged.face_loops),
+        ];
         self.complex = ChainComplex::new(points, boundaries);
         self.n_components = self.complex.connected_components().n;
         self.loops = merged.loops;
