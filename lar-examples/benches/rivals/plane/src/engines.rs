@@ -28,6 +28,15 @@ pub fn named(name: &str) -> Option<Engine> {
     }
 }
 
+/// Segments to begin with: three, or enough to be worth a second thread.
+pub fn warm_up(name: &str) -> Vec<[f64; 4]> {
+    let mut segments = vec![[0.0, 0.0, 1.0, 1.0], [0.0, 1.0, 1.0, 0.0], [0.5, 0.0, 0.6, 1.0]];
+    if name == "lar-2" {
+        segments.extend((2..1 << 16).map(|i| [0.0, f64::from(i), 1.0, f64::from(i) + 0.5]));
+    }
+    segments
+}
+
 /// The chain complex with dangling edges kept.
 fn lar(segments: &[[f64; 4]], threads: usize) -> Result<Count, Box<dyn Error>> {
     let threads = NonZeroUsize::new(threads).ok_or("no thread")?;

@@ -46,9 +46,10 @@ fn read(file: &str) -> Result<Vec<[f64; 4]>, Box<dyn Error>> {
 
 /// The time and memory of the operation alone, without the counting after it.
 fn run(engine: &str, segments: &[[f64; 4]]) -> Result<(), Box<dyn Error>> {
+    let warm_up = engines::warm_up(engine);
     let engine = engines::named(engine).ok_or("no such engine")?;
-    // The program itself is in memory before anything is measured.
-    drop(engine(&[[0.0, 0.0, 1.0, 1.0], [0.0, 1.0, 1.0, 0.0], [0.5, 0.0, 0.6, 1.0]])?);
+    // The program itself is in memory before anything is measured, and its threads are started.
+    drop(engine(&warm_up)?);
     let (count, Cost { cpu, wall, memory }) = measure(Duration::ZERO, || engine(segments))?;
     let [v, e, f, c] = count().map(|n| n.map_or("null".to_owned(), |n| n.to_string()));
     println!(r#"{{"cpu": {cpu}, "wall": {wall}, "memory": {memory}, "counts": [{v}, {e}, {f}, {c}]}}"#);
