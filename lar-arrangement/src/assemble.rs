@@ -48,12 +48,9 @@ pub(crate) fn assemble(
     });
     let cells_of_face =
         parallel::map_light(n_faces, |face| shells_of_face[face].map(|shell| shells.cell_of[shell as usize]));
-    let Parents { parents, offsets: parent_offsets, crossed: crossed_ends } =
-        Parents::new(&soup, &skeleton, &dissolved);
-    let walls = Walls::of_faces(cells_of_face.len(), |walls, face| {
-        let end = crossed_ends.get(face).unwrap_or(&parent_offsets[face + 1]);
-        let of_face = parents[parent_offsets[face] as usize..*end as usize].iter();
-        walls.push_face(cells_of_face[face], of_face.map(|p| (p.solid, soup.jump(p))));
+    let parents = Parents::new(&soup, &skeleton, &dissolved);
+    let walls = Walls::of_faces(n_faces, |walls, face| {
+        walls.push_face(cells_of_face[face], parents.crossed(face).iter().map(|p| (p.solid, soup.jump(p))));
     });
     let windings = Windings::new(shells.n_cells as usize, surfaces.len(), &walls);
     course.begin("complex", &mut stats)?;
@@ -88,9 +85,9 @@ pub(crate) fn assemble(
         cells_of_face,
         shells_of_face,
         n_shells: shells.n,
-        parents,
-        parent_offsets,
-        crossed_ends,
+        parents: parents.parents,
+        parent_offsets: parents.offsets,
+        crossed_ends: parents.crossed,
         facet_of_face,
         plane_of_face,
         windings,
@@ -139,6 +136,12 @@ impl Parents {
             out.offsets.push(out.parents.len() as u32);
         }
         out
+    }
+
+    /// Those that a path across a face crosses.
+    fn crossed(&self, face: usize) -> &[Parent] {
+        let end = self.crossed.get(face).unwrap_or(&self.offsets[face + 1]);
+        &self.parents[self.offsets[face] as usize..*end as usize]
     }
 
     /// Of the parents from `end` on keeps each once, in order, that is not between `begin` and `end`.

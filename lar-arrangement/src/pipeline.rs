@@ -112,7 +112,8 @@ impl<'a> Arranger<'a> {
         Self::default()
     }
 
-    /// Limits the number of threads. Without the feature `rayon` there is one.
+    /// Limits the number of threads. Those of the last operation that had more than one wait for the next one with the same
+    /// number. Without the feature `rayon` there is one.
     #[must_use]
     pub fn threads(mut self, threads: NonZeroUsize) -> Self {
         self.threads = Some(threads);

@@ -48,11 +48,9 @@ pub(crate) struct FacesOfFacets {
 impl FacesOfFacets {
     /// From the faces of each group.
     fn new(groups: &Groups, faces: &[Range<u32>]) -> Self {
-        let of_group = |(facets, faces): (_, &Range<u32>)| {
-            let facets: &[u32] = facets;
-            facets.iter().map(|&f| (f, faces.clone())).collect::<Vec<_>>()
-        };
-        let mut members: Vec<_> = groups.members.iter().zip(faces).flat_map(of_group).collect();
+        let of_groups = groups.members.iter().zip(faces);
+        let mut members: Vec<(u32, Range<u32>)> =
+            of_groups.flat_map(|(facets, faces)| facets.iter().map(|&f| (f, faces.clone()))).collect();
         members.sort_unstable_by_key(|member| member.0);
         let mut shifts = vec![0u32];
         let mut leaders = groups.leaders.iter().zip(faces).peekable();
