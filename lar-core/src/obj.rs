@@ -4,7 +4,7 @@ mod read;
 mod write;
 
 pub use read::{ObjGrouping, parse_obj, read_obj};
-pub(crate) use read::{is_utf16, text};
+pub(crate) use read::{is_utf16, parse};
 pub(crate) use write::{write_face, write_vertices};
 
 use crate::{FaceId, FileError, VertexId};

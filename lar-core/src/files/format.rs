@@ -8,8 +8,8 @@ use super::source::{MARK, Source};
 use super::weld::Weld;
 use super::{gltf, off, ply, polygons, stl};
 use crate::atomic_write::read;
-use crate::obj::text;
-use crate::{FileError, ObjGrouping, Surface, atomic_write, parse_obj};
+use crate::obj;
+use crate::{FileError, ObjGrouping, Surface, atomic_write};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Cursor, Read, Write};
 use std::path::Path;
@@ -136,7 +136,7 @@ pub fn parse_surface(bytes: &[u8], file: impl AsRef<Path>) -> Result<SurfaceFile
     if format != MeshFormat::Obj {
         return read_as(format, &mut source);
     }
-    let surface = only(parse_obj(&text(bytes, file)?, file, ObjGrouping::Whole)?);
+    let surface = only(obj::parse(bytes, file, ObjGrouping::Whole)?);
     Ok(SurfaceFile { surface, format, weld: None })
 }
 
@@ -232,4 +232,107 @@ fn extension(path: &Path) -> String {
 
 fn only(surfaces: Vec<Surface>) -> Surface {
     surfaces.into_iter().next().expect("reading as a whole gives one surface")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use proptest::sample::Index;
+
+    /// Texts with the usual lines and others between them.
+    const TEXTS: [(&str, &str, &str); 4] = [
+        (
+            "a.obj",
+            "",
+            "v 0 0 0\nv 1.5e0 0 0 1\r\nv 0 1 -0.25\nv\t0 -0 1e+00 0.5 .5 5e-1\nvt 0 0\nvn 0 0 1 # up\n\ng top  side\n\
+             f 1 2 3\n# f 1 2\nf 1/1/1 2/1/1 4//1\n  f 1 3 2\nf -1 -2 -3\nf 1 3 \\\n4\nf 2 3/1 4/ \nf 1 +2 5\nv 9 9 9",
+        ),
+        (
+            "a.stl",
+            "solid a  b c\n",
+            "facet normal 0 0 1\n outer loop\n  vertex 0 0 0\n  vertex 1.25 0 -0.0\n  vertex 0 1e-01 0\n endloop\n\
+             endfacet\nfacet normal nan nan nan\nouter loop vertex 0 0 0\nvertex 1 0 0\r\nvertex 0 0 7\nendloop endfacet\n\
+             FACET NORMAL 0 0 0\r\nOuter Loop\r\nvertex 1 2 3\r\nvertex 1 2 4\r\nvertex 1 2 4\r\nendloop\r\nendfacet\r\n\
+             endsolid\nsolid\nfacet normal 1 2 3\nouter loop\nvertex 0 0 0\nvertex 0.5 0 0\nvertex 0 0.5 0\nendloop\n\
+             endfacet\nendsolid",
+        ),
+        (
+            "a.ply",
+            "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+             property uchar red\nelement face 3\nproperty list uchar int vertex_indices\nend_header\n",
+            "0 0 0 255\n1 0 -0.5 7 \n0 1.125 0 x\r\n0 0 1e0 0 more\n3 0 1 2\n4 0 2 3 1 7\n3 1  2 3",
+        ),
+        (
+            "a.off",
+            "OFF # faces\n4 4 0\n",
+            "0 0 0\n# c\n1 0 -0.5 255 0 0\n\n0 1.125 0\r\n 0 0 1e0 # last\n3 0 1 2\n3 0 2 3 7 7 7\n4\t0 1 2 3\n3 1 2 3",
+        ),
+    ];
+
+    fn outcome(read: Result<SurfaceFile, MeshFileError>) -> Result<SurfaceFile, String> {
+        read.map_err(|error| error.to_string())
+    }
+
+    /// The words of each line parted by vertical tabs, which no usual line has.
+    fn unusual(text: &[u8]) -> Vec<u8> {
+        let line = |line: &[u8]| {
+            let indent = line.len() - line.trim_ascii_start().len();
+            let (indent, words) = line.split_at(indent);
+            [indent, &words.iter().map(|&b| if b == b' ' { b'\x0b' } else { b }).collect::<Vec<_>>()].concat()
+        };
+        text.split(|&byte| byte == b'\n').map(line).collect::<Vec<_>>().join(&b'\n')
+    }
+
+    /// What is read of the body, is read of it without usual lines.
+    #[track_caller]
+    fn check(name: &str, head: &str, body: &[u8]) {
+        let read = |body: &[u8]| outcome(parse_surface(&[head.as_bytes(), body].concat(), name));
+        assert_eq!(read(body), read(&unusual(body)), "{name}: {:?}", String::from_utf8_lossy(body));
+    }
+
+    #[test]
+    fn usual_lines_are_read_like_others_wherever_the_text_ends() {
+        for (name, head, body) in TEXTS {
+            let body = body.as_bytes();
+            assert!(parse_surface(&[head.as_bytes(), body].concat(), name).is_ok(), "{name}");
+            (0..=body.len()).for_each(|cut| check(name, head, &body[..cut]));
+        }
+    }
+
+    #[test]
+    fn buffers_of_any_size() {
+        for (name, head, body) in &TEXTS[1..] {
+            let text = [head.as_bytes(), body.as_bytes()].concat();
+            let whole = parse_surface(&text, name).unwrap();
+            for n in 1..=text.len() {
+                let mut input = BufReader::with_capacity(n, &text[..]);
+                let mut source = Source::new(Path::new(name), &mut input, text.len() as u64);
+                assert_eq!(read_as(whole.format, &mut source).unwrap(), whole, "{name}, {n} bytes");
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn usual_lines_are_read_like_others_with_errors_in_them(
+            which in 0..TEXTS.len(),
+            changes in prop::collection::vec(
+                (any::<Index>(), prop::sample::select(&b" \t\r\n\x0c0123459.-+eE#/\\vfgx,\0\xff\xc3\xa0"[..]), 0..3),
+                1..4,
+            ),
+        ) {
+            let (name, head, body) = TEXTS[which];
+            let mut body = body.as_bytes().to_vec();
+            for (place, byte, change) in changes {
+                let place = place.index(body.len());
+                match change {
+                    0 => body[place] = byte,
+                    1 => body.insert(place, byte),
+                    _ => drop(body.remove(place)),
+                }
+            }
+            check(name, head, &body);
+        }
+    }
 }

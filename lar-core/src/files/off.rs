@@ -27,19 +27,21 @@ pub(crate) fn read(source: &mut Source<'_>) -> Result<SurfaceFile, MeshFileError
     let [n_vertices, n_faces] = read_counts(source)?;
     let (mut coords, mut digits) = (Vec::new(), Digits::default());
     for _ in 0..n_vertices {
-        let (at, line) = source.statement("a vertex")?;
-        at.check_size(coords.len() / 3 + 1)?;
-        let mut words = words_of(line);
-        for _ in 0..3 {
-            coords.push(at.coordinate(&mut words, &mut digits)?);
-        }
+        let point = match source.quick(|scan| scan.coordinates(&mut digits)) {
+            Some(point) => point,
+            None => read_vertex(source, &mut digits)?,
+        };
+        source.at_line().check_size(coords.len() / 3 + 1)?;
+        coords.extend(point);
     }
     let points = Points::from_columns(3, coords);
     let (mut polygons, mut polygon) = (Cells::new(), Vec::new());
     for _ in 0..n_faces {
-        let (at, line) = source.statement("a face")?;
-        read_face(at, line, points.len(), &mut polygon)?;
-        at.check_size(polygons.indices().len() + polygon.len())?;
+        if source.quick(|scan| scan.polygon(points.len(), &mut polygon)).is_none() {
+            let (at, line) = source.statement("a face")?;
+            read_face(at, line, points.len(), &mut polygon)?;
+        }
+        source.at_line().check_size(polygons.indices().len() + polygon.len())?;
         polygons.push(&polygon);
     }
     if polygons.is_empty() {
@@ -74,6 +76,15 @@ fn read_counts(source: &mut Source<'_>) -> Result<[u64; 2], MeshFileError> {
 
 fn counts<'w>(at: At<'_>, mut words: impl Iterator<Item = &'w str>) -> Result<[u64; 2], MeshFileError> {
     Ok([at.count(words.next(), "the number of vertices")?, at.count(words.next(), "the number of faces")?])
+}
+
+fn read_vertex(source: &mut Source<'_>, digits: &mut Digits) -> Result<[f64; 3], MeshFileError> {
+    let (at, line) = source.statement("a vertex")?;
+    let (mut point, mut words) = ([0.; 3], words_of(line));
+    for x in &mut point {
+        *x = at.coordinate(&mut words, digits)?;
+    }
+    Ok(point)
 }
 
 fn read_face(at: At<'_>, line: &str, n_vertices: usize, polygon: &mut Vec<u32>) -> Result<(), MeshFileError> {

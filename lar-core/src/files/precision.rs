@@ -53,7 +53,10 @@ impl Precision {
 /// Collects the digits of the coordinates of a text.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Digits {
-    significant: u32,
+    /// The largest mantissa below 10^19.
+    largest: u64,
+    /// The most digits of those above, leading zeros not counted.
+    longest: usize,
     last_place: Option<i32>,
 }
 
@@ -67,6 +70,7 @@ impl Digits {
     }
 
     /// The number that the next word is; the word, which is empty when there is none, where it is no number.
+    #[inline]
     pub(crate) fn next<'w>(&mut self, words: &mut Words<'w>) -> Result<f64, &'w str> {
         // In one pass over the text, if nothing but a number stands there.
         if let Some((decimal, word)) = words.decimal() {
@@ -77,18 +81,26 @@ impl Digits {
     }
 
     fn value(&mut self, decimal: &Decimal, word: &str) -> Option<f64> {
-        self.significant = self.significant.max(decimal.significant);
-        let place = decimal.exponent.saturating_sub(decimal.decimals);
-        self.last_place = Some(self.last_place.map_or(place, |least| least.min(place)));
-        decimal.exactly().or_else(|| word.parse().ok())
+        self.note(decimal);
+        decimal.rounded().or_else(|| word.parse().ok())
+    }
+
+    #[inline]
+    pub(super) fn note(&mut self, decimal: &Decimal) {
+        self.last_place = Some(self.last_place.map_or(decimal.place, |least| least.min(decimal.place)));
+        if decimal.n_digits <= Decimal::EXACT {
+            self.largest = self.largest.max(decimal.mantissa);
+        } else {
+            self.longest = self.longest.max(decimal.n_digits);
+        }
     }
 
     /// The precision of all numbers noted; text that has the digits of a 64-bit number is one.
     pub(crate) fn precision(self) -> Precision {
+        let most = self.largest.checked_ilog10().map_or(0, |log| log + 1);
+        let significant = most.max(u32::try_from(self.longest).unwrap_or(u32::MAX));
         match self.last_place {
-            Some(last_place) if self.significant < 16 => {
-                Precision::Decimal { significant: self.significant, last_place }
-            }
+            Some(last_place) if significant < 16 => Precision::Decimal { significant, last_place },
             _ => Precision::F64,
         }
     }
@@ -177,6 +189,9 @@ mod tests {
             "0.1e23",
             "00000000000000000000000000000001.5",
             "18446744073709551617",
+            "18446744073709551616",
+            "0.00000000000000000000000000000001",
+            "-0.00009770726095507105",
             "4.9e-324",
             "1.7976931348623159e308",
         ];
@@ -186,7 +201,31 @@ mod tests {
         }
     }
 
+    #[track_caller]
+    fn check_number(word: &str) {
+        let (found, expected) = (Digits::default().number(word), word.parse::<f64>().ok());
+        assert_eq!(found.map(f64::to_bits), expected.map(f64::to_bits), "{word}");
+    }
+
     proptest! {
+        #[test]
+        fn rounding(n_digits in 1_u32..=19, digits: u64, exponent in -60..60, zeros in 1..9_usize) {
+            let mantissa = digits % 10_u64.pow(n_digits);
+            check_number(&format!("{mantissa}e{exponent}"));
+            check_number(&format!("0.{:0zeros$}{mantissa}", 0));
+        }
+
+        /// In the middle between two numbers, and one unit of the last digit beside it.
+        #[test]
+        fn ties(bits: u64, shift in 0_u32..9, halves in 0_u32..4) {
+            let middle = bits >> 10 | 1 << 53 | 1;
+            for beside in [-1, 0, 1] {
+                check_number(&format!("{}", i128::from(middle << shift) + beside));
+                let (n, d) = (i128::from((middle >> (3 * halves)) | 1) * 5_i128.pow(halves) + beside, 10_i128.pow(halves));
+                check_number(&format!("{}.{:0w$}", n / d, n % d, w = halves as usize));
+            }
+        }
+
         #[test]
         fn any_number_reads_as_in_the_standard_library(word in "[+-]?[0-9]{0,20}[.]?[0-9]{0,20}([eE][+-]?[0-9]{1,3})?", bits: u64) {
             for word in [word, f64::from_bits(bits).to_string(), format!("{:e}", f64::from_bits(bits))] {

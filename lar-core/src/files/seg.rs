@@ -47,14 +47,20 @@ pub fn parse_segments(text: &[u8], file: impl AsRef<Path>) -> Result<Vec<[f64; 4
 fn read(file: &Path, input: &mut dyn BufRead) -> Result<Vec<[f64; 4]>, MeshFileError> {
     let mut source = Source::new(file, input, 0);
     let mut segments = Vec::new();
-    while let Some((at, line)) = source.line()? {
+    let mut digits = Digits::default();
+    loop {
+        if let Some(segment) = source.quick(|scan| scan.coordinates(&mut digits)) {
+            source.at_line().check_size(2 * segments.len() + 2)?;
+            segments.push(segment);
+            continue;
+        }
+        let Some((at, line)) = source.line()? else { return Ok(segments) };
         let numbers = line.split('#').next().unwrap_or_default();
         if let Some(segment) = segment(at, numbers)? {
             at.check_size(2 * segments.len() + 2)?;
             segments.push(segment);
         }
     }
-    Ok(segments)
 }
 
 /// The segment of a line; `None` when the line is blank.
@@ -120,6 +126,14 @@ mod tests {
             let line = |s: &[f64; 4]| format!("{} {} {:e} {}\n", s[0], s[1], s[2], s[3]);
             let text: String = segments.iter().map(line).collect();
             prop_assert_eq!(parse_segments(text.as_bytes(), "a.seg").unwrap(), segments);
+        }
+
+        #[test]
+        fn usual_lines_are_read_like_others(text in "([0-9]{1,3} |-?[0-9].[0-9]{0,3} |\n|\r\n|[0-9 .e#\t-]){0,40}") {
+            // Nothing usual has a vertical tab.
+            let [found, expected] = [text.clone(), text.replace(' ', "\u{b}")]
+                .map(|text| parse_segments(text.as_bytes(), "a.seg").map_err(|e| e.to_string()));
+            prop_assert_eq!(found, expected);
         }
 
         #[test]

@@ -2,12 +2,14 @@
 
 use super::error::{MeshFileError, Place, Problem};
 use super::precision::Digits;
+use super::scan::Scan;
 use super::words::Words;
 use crate::FileError;
 use crate::obj::is_utf16;
+use memchr::memchr;
 use std::io::{self, BufRead, Read};
+use std::mem;
 use std::path::Path;
-use std::string::FromUtf8Error;
 
 /// Where something was read: what errors say.
 #[derive(Clone, Copy, Debug)]
@@ -78,15 +80,17 @@ pub(crate) struct Source<'a> {
     len: u64,
     offset: u64,
     line: u64,
-    /// The line with its end.
-    text: String,
-    /// Whether it is the first line of UTF-16.
-    is_utf16: bool,
+    /// Length of the line with its end, as far as it stands at the beginning of the input's buffer.
+    lent: usize,
+    /// The line with its end where it does not stand there whole.
+    gathered: Vec<u8>,
+    /// The line where it is not UTF-8.
+    lossy: String,
 }
 
 impl<'a> Source<'a> {
     pub(crate) fn new(file: &'a Path, input: &'a mut dyn BufRead, len: u64) -> Self {
-        Self { file, input, len, offset: 0, line: 0, text: String::new(), is_utf16: false }
+        Self { file, input, len, offset: 0, line: 0, lent: 0, gathered: Vec::new(), lossy: String::new() }
     }
 
     /// Length of the file in bytes.
@@ -114,6 +118,25 @@ impl<'a> Source<'a> {
         self.file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
     }
 
+    /// What a form reads that the next line begins and a line end ends; `None`, and nothing read, where the text has
+    /// another form or the buffer ends before.
+    #[inline]
+    pub(crate) fn quick<T>(&mut self, form: impl FnOnce(&mut Scan<'_>) -> Option<T>) -> Option<T> {
+        /// More is no usual line, and what is no usual line is not looked through in vain.
+        const LONGEST: usize = 1 << 12;
+        self.input.consume(mem::take(&mut self.lent));
+        // An error comes again.
+        let ahead = fill(self.input).ok()?;
+        let ahead = &ahead[..ahead.len().min(LONGEST)];
+        let mut scan = Scan::new(ahead);
+        let read = form(&mut scan)?;
+        let (n, lines) = (ahead.len() - scan.rest().len(), scan.lines);
+        self.input.consume(n);
+        self.offset += n as u64;
+        self.line += lines;
+        Some(read)
+    }
+
     /// The next line without its end; `None` at the end of the file.
     pub(crate) fn line(&mut self) -> Result<Option<(At<'a>, &str)>, MeshFileError> {
         if self.advance()? { self.text().map(Some) } else { Ok(None) }
@@ -128,40 +151,45 @@ impl<'a> Source<'a> {
     /// The next line that holds more than spaces and a comment from `#` on, or the error that `expected` is
     /// missing.
     pub(crate) fn statement(&mut self, expected: &'static str) -> Result<(At<'a>, &str), MeshFileError> {
-        let blank = |line: &[u8]| matches!(line.trim_ascii_start().first(), None | Some(b'#'));
         while self.advance()? {
-            if !blank(self.text.as_bytes()) {
+            let failed = |source| failure(self.file, source);
+            let line = self.bytes_of_line().map_err(failed)?;
+            if !matches!(line.trim_ascii_start().first(), None | Some(b'#')) {
                 let (at, line) = self.text()?;
-                return Ok((at, line.split('#').next().unwrap_or_default()));
+                return Ok((at, memchr(b'#', line.as_bytes()).map_or(line, |end| &line[..end])));
             }
         }
         Err(self.at_line().error(Problem::Ends { expected }))
     }
 
-    /// Takes the next line into the buffer; false at the end of the file. Names and comments may be in any encoding
-    /// that agrees with ASCII: what is not UTF-8 in them reads as U+FFFD.
+    /// Goes on to the next line; false at the end of the file.
     fn advance(&mut self) -> Result<bool, MeshFileError> {
-        let mut bytes = std::mem::take(&mut self.text).into_bytes();
-        bytes.clear();
-        let n = self.read_line(&mut bytes).map_err(|source| self.failure(source))?;
-        if n as u64 == LONGEST_LINE {
+        self.input.consume(mem::take(&mut self.lent));
+        let n = self.find_line().map_err(|source| self.failure(source))? as u64;
+        if n >= LONGEST_LINE {
             return Err(self.at_line().error(Problem::LongLine { limit: LONGEST_LINE }));
         }
-        self.offset += n as u64;
+        self.offset += n;
         self.line += u64::from(n > 0);
-        if self.line == 1 && bytes.starts_with(MARK) {
-            bytes.drain(..MARK.len());
-        }
-        self.is_utf16 = self.line == 1 && is_utf16(&bytes);
-        let lossy = |error: FromUtf8Error| String::from_utf8_lossy(error.as_bytes()).into_owned();
-        self.text = String::from_utf8(bytes).unwrap_or_else(lossy);
         Ok(n > 0)
     }
 
+    /// Length of the next line with its end. It stays in the buffer if it stands there whole.
+    fn find_line(&mut self) -> io::Result<usize> {
+        self.gathered.clear();
+        let ahead = fill(self.input)?;
+        match memchr(b'\n', ahead) {
+            Some(n) => self.lent = n + 1,
+            None if ahead.is_empty() => {}
+            None => return self.gather_line(),
+        }
+        Ok(self.lent)
+    }
+
     /// Reads up to the end of the line, or as much as a line may have. What is too long for the memory is an error.
-    fn read_line(&mut self, bytes: &mut Vec<u8>) -> io::Result<usize> {
+    fn gather_line(&mut self) -> io::Result<usize> {
         const CHUNK: usize = 1 << 16;
-        let longest = LONGEST_LINE as usize;
+        let (longest, bytes) = (LONGEST_LINE as usize, &mut self.gathered);
         loop {
             let left = longest - bytes.len();
             if bytes.capacity() - bytes.len() < CHUNK.min(left) {
@@ -175,16 +203,32 @@ impl<'a> Source<'a> {
         }
     }
 
-    fn text(&self) -> Result<(At<'a>, &str), MeshFileError> {
-        let at = self.at_line();
-        if self.is_utf16 {
+    /// The line read last, without its end and without the mark before the first.
+    fn bytes_of_line(&mut self) -> io::Result<&[u8]> {
+        line_in(self.input, self.lent, &self.gathered, self.line == 1)
+    }
+
+    /// The line read last as text. Names and comments may be in any encoding that agrees with ASCII: what is not UTF-8
+    /// in them reads as U+FFFD.
+    fn text(&mut self) -> Result<(At<'a>, &str), MeshFileError> {
+        let (at, first) = (self.at_line(), self.line == 1);
+        let bytes = line_in(self.input, self.lent, &self.gathered, first)
+            .map_err(|source| failure(self.file, source))?;
+        if first && is_utf16(bytes) {
             return Err(at.error(Problem::NotUtf8));
         }
-        Ok((at, self.text.trim_end_matches(['\n', '\r'])))
+        if let Ok(text) = str::from_utf8(bytes) {
+            return Ok((at, text));
+        }
+        self.lossy = String::from_utf8_lossy(bytes).into_owned();
+        Ok((at, &self.lossy))
     }
 
     /// The next bytes, or the error that `expected` is missing.
     pub(crate) fn bytes<const N: usize>(&mut self, expected: &'static str) -> Result<[u8; N], MeshFileError> {
+        if self.lent > 0 {
+            self.input.consume(mem::take(&mut self.lent));
+        }
         let mut bytes = [0; N];
         match self.input.read_exact(&mut bytes) {
             Ok(()) => {
@@ -204,6 +248,35 @@ impl<'a> Source<'a> {
     }
 
     fn failure(&self, source: io::Error) -> MeshFileError {
-        FileError { path: self.file.to_owned(), action: "read", source }.into()
+        failure(self.file, source)
     }
+}
+
+fn failure(file: &Path, source: io::Error) -> MeshFileError {
+    FileError { path: file.to_owned(), action: "read", source }.into()
+}
+
+/// What the buffer holds, filled where it is empty; nothing at the end.
+fn fill(input: &mut dyn BufRead) -> io::Result<&[u8]> {
+    loop {
+        match input.fill_buf() {
+            Ok([]) => return Ok(&[]),
+            Ok(_) => return input.fill_buf(),
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+/// A line without its end: so much of the buffer, or what was gathered. Before the first line there may be a mark.
+fn line_in<'l>(
+    input: &'l mut dyn BufRead,
+    lent: usize,
+    gathered: &'l [u8],
+    first: bool,
+) -> io::Result<&'l [u8]> {
+    let line = if lent > 0 { &input.fill_buf()?[..lent] } else { gathered };
+    let line = if first { line.strip_prefix(MARK).unwrap_or(line) } else { line };
+    let ends = line.iter().rev().take_while(|byte| matches!(byte, b'\n' | b'\r')).count();
+    Ok(&line[..line.len() - ends])
 }

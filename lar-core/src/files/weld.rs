@@ -53,7 +53,7 @@ const BLOCK: usize = 1 << 22;
 pub(crate) struct Welder<T, const D: usize> {
     blocks: Vec<Vec<[T; D]>>,
     n: u32,
-    /// Open addressing with linear probing, a power of two, at most seven eighths full.
+    /// Open addressing with linear probing, a power of two, at most half full: what is not there is found missing soon.
     slots: Vec<u32>,
 }
 
@@ -68,7 +68,7 @@ impl<T: Bits, const D: usize> Welder<T, D> {
 
     /// The vertex at `point`; expected O(1). The caller keeps the number of vertices below 2^32 − 1.
     pub(crate) fn vertex(&mut self, point: [T; D]) -> u32 {
-        if self.len() >= self.slots.len() / 8 * 7 {
+        if self.len() >= self.slots.len() / 2 {
             self.grow();
         }
         let slot = self.slot(point);
@@ -112,9 +112,8 @@ impl<T: Bits, const D: usize> Welder<T, D> {
     /// The slot of an equal point, or the empty one where it belongs.
     fn slot(&self, point: [T; D]) -> usize {
         let mask = self.slots.len() - 1;
-        let key = point.map(T::bits);
-        let mut slot = hash(key) & mask;
-        while self.slots[slot] != EMPTY && self.point(self.slots[slot]).map(T::bits) != key {
+        let mut slot = hash(point) & mask;
+        while self.slots[slot] != EMPTY && !equal(self.point(self.slots[slot]), point) {
             slot = (slot + 1) & mask;
         }
         slot
@@ -126,7 +125,7 @@ impl<T: Bits, const D: usize> Welder<T, D> {
         self.slots = vec![EMPTY; doubled];
         let mask = doubled - 1;
         for vertex in 0..self.n {
-            let mut slot = hash(self.point(vertex).map(T::bits)) & mask;
+            let mut slot = hash(self.point(vertex)) & mask;
             while self.slots[slot] != EMPTY {
                 slot = (slot + 1) & mask;
             }
@@ -135,10 +134,15 @@ impl<T: Bits, const D: usize> Welder<T, D> {
     }
 }
 
-fn hash<const D: usize>(key: [u64; D]) -> usize {
+fn hash<T: Bits, const D: usize>(point: [T; D]) -> usize {
     let mut hasher = FxHasher::default();
-    key.into_iter().for_each(|bits| hasher.write_u64(bits));
+    point.into_iter().for_each(|x| hasher.write_u64(x.bits()));
     hasher.finish() as usize
+}
+
+/// One decision for all coordinates: the first is seldom enough.
+fn equal<T: Bits, const D: usize>(a: [T; D], b: [T; D]) -> bool {
+    a.into_iter().zip(b).fold(0, |differing, (a, b)| differing | (a.bits() ^ b.bits())) == 0
 }
 
 #[cfg(test)]

@@ -7,8 +7,9 @@
 
 use super::ObjError;
 use crate::atomic_write::read;
-use crate::files::{Digits, Words, words_of};
+use crate::files::{Digits, MARK, Scan, Words, words_of};
 use crate::{Cells, Points, Surface};
+use memchr::memchr;
 use rustc_hash::FxHashMap;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -31,16 +32,7 @@ pub enum ObjGrouping {
 /// When the file cannot be read, is UTF-16, has no faces or a malformed line; see [`ObjError`].
 pub fn read_obj(path: impl AsRef<Path>, grouping: ObjGrouping) -> Result<Vec<Surface>, ObjError> {
     let path = path.as_ref();
-    let bytes = read(path)?;
-    parse_obj(&text(&bytes, path)?, path, grouping)
-}
-
-/// The bytes as text; UTF-16, which has other bytes for `v` and `f`, is refused.
-pub(crate) fn text<'b>(bytes: &'b [u8], file: &Path) -> Result<Cow<'b, str>, ObjError> {
-    if is_utf16(bytes) {
-        return Err(ObjError::NotUtf8 { file: file.to_owned(), line: 1 });
-    }
-    Ok(String::from_utf8_lossy(bytes))
+    parse(&read(path)?, path, grouping)
 }
 
 /// Whether the bytes begin with the byte-order mark of UTF-16.
@@ -65,10 +57,21 @@ pub fn parse_obj(
     file: impl AsRef<Path>,
     grouping: ObjGrouping,
 ) -> Result<Vec<Surface>, ObjError> {
-    let file = file.as_ref();
+    parse(text.as_bytes(), file.as_ref(), grouping)
+}
+
+/// Reads the bytes of an OBJ file. UTF-16, which has other bytes for `v` and `f`, is refused.
+pub(crate) fn parse(bytes: &[u8], file: &Path, grouping: ObjGrouping) -> Result<Vec<Surface>, ObjError> {
+    if is_utf16(bytes) {
+        return Err(ObjError::NotUtf8 { file: file.to_owned(), line: 1 });
+    }
     let mut reader = Reader::new(file);
-    for (line, statement) in statements(text) {
-        reader.statement(line, &statement)?;
+    let mut lines = Lines { number: 1, rest: bytes.strip_prefix(MARK).unwrap_or(bytes) };
+    while !lines.rest.is_empty() {
+        let line = lines.number;
+        if !reader.quick(&mut lines)? {
+            reader.statement(line, &lines.statement())?;
+        }
     }
     reader.check_faces()?;
     let precision = reader.digits.precision();
@@ -81,28 +84,49 @@ pub fn parse_obj(
     Ok(surfaces)
 }
 
-/// The statements with their first lines: comments cut off, continued lines joined.
-fn statements(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
-    let mut lines = (1..).zip(text.strip_prefix('\u{feff}').unwrap_or(text).lines());
-    std::iter::from_fn(move || {
-        let (number, line) = lines.next()?;
-        let Some(start) = continued(line) else { return Some((number, Cow::Borrowed(uncommented(line)))) };
+/// The lines of a text that are left.
+struct Lines<'t> {
+    /// Of the next line, from 1.
+    number: usize,
+    rest: &'t [u8],
+}
+
+impl<'t> Lines<'t> {
+    /// The next line, lossily as text; empty at the end.
+    fn line(&mut self) -> Cow<'t, str> {
+        let end = memchr(b'\n', self.rest).unwrap_or(self.rest.len());
+        let line = &self.rest[..end];
+        self.rest = self.rest.get(end + 1..).unwrap_or_default();
+        self.number += 1;
+        String::from_utf8_lossy(line)
+    }
+
+    /// The next statement: comments cut off, continued lines joined.
+    fn statement(&mut self) -> Cow<'t, str> {
+        let line = self.line();
+        let Some(start) = continued(&line) else {
+            return match line {
+                Cow::Borrowed(line) => uncommented(line).into(),
+                Cow::Owned(line) => uncommented(&line).to_owned().into(),
+            };
+        };
         let mut joined = start.to_owned();
-        for (_, line) in lines.by_ref() {
+        while !self.rest.is_empty() {
+            let line = self.line();
             joined.push(' ');
-            if let Some(part) = continued(line) {
+            if let Some(part) = continued(&line) {
                 joined.push_str(part);
             } else {
-                joined.push_str(uncommented(line));
+                joined.push_str(uncommented(&line));
                 break;
             }
         }
-        Some((number, Cow::Owned(joined)))
-    })
+        joined.into()
+    }
 }
 
 fn uncommented(line: &str) -> &str {
-    line.split('#').next().unwrap_or(line)
+    memchr(b'#', line.as_bytes()).map_or(line, |end| &line[..end])
 }
 
 /// The line without the backslash that continues it; `None` when it ends here. A comment does not continue.
@@ -162,6 +186,37 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// Reads the next line if it is a vertex or a face in the usual form.
+    fn quick(&mut self, lines: &mut Lines<'_>) -> Result<bool, ObjError> {
+        let mut scan = Scan::new(lines.rest);
+        match lines.rest {
+            [b'v', b' ' | b'\t', ..] => {
+                let Some(point) = point(&mut scan, &mut self.digits) else { return Ok(false) };
+                self.coords.extend(point);
+                self.check_size(lines.number, self.n_vertices())?;
+            }
+            [b'f', b' ' | b'\t', ..] => {
+                if self.corners(&mut scan, lines.number).is_none() {
+                    return Ok(false);
+                }
+                self.close_face(lines.number)?;
+            }
+            _ => return Ok(false),
+        }
+        *lines = Lines { number: lines.number + 1, rest: scan.rest() };
+        Ok(true)
+    }
+
+    /// Takes the corners of a face from its line.
+    fn corners(&mut self, scan: &mut Scan<'_>, line: usize) -> Option<()> {
+        scan.keyword("f")?;
+        self.face.clear();
+        while let Some(index) = scan.corner() {
+            self.face.push(self.resolve(line, index).ok()?);
+        }
+        scan.end_line()
+    }
+
     fn vertex(&mut self, line: usize, mut words: Words<'_>) -> Result<(), ObjError> {
         for found in 0..3 {
             let before = words.clone();
@@ -184,6 +239,10 @@ impl<'a> Reader<'a> {
             };
             self.face.push(self.resolve(line, index)?);
         }
+        self.close_face(line)
+    }
+
+    fn close_face(&mut self, line: usize) -> Result<(), ObjError> {
         let found = self.face.len();
         if found < 3 {
             return Err(ObjError::ShortFace { file: self.path(), line, found });
@@ -275,6 +334,17 @@ impl<'a> Reader<'a> {
         }
         groups.into_iter().map(|(surface, _)| surface).collect()
     }
+}
+
+/// A vertex in its line; what follows the coordinates are numbers.
+fn point(scan: &mut Scan<'_>, digits: &mut Digits) -> Option<[f64; 3]> {
+    scan.keyword("v")?;
+    let point = scan.numbers(digits)?;
+    if scan.end_line().is_none() {
+        while scan.skip_number().is_some() {}
+        scan.end_line()?;
+    }
+    Some(point)
 }
 
 /// The vertex index of a corner v, v/vt, v//vn or v/vt/vn; the others must be whole numbers where they stand, and

@@ -69,9 +69,12 @@ impl Items {
     fn read(&mut self, source: &mut Source<'_>, element: &Element) -> Result<(), MeshFileError> {
         self.polygon.clear();
         let at = if self.format == MeshFormat::PlyText {
-            let (at, line) = source.needed_line("an item")?;
-            self.text_item(at, line, element)?;
-            at
+            if self.quick(source, element).is_none() {
+                self.polygon.clear();
+                let (at, line) = source.needed_line("an item")?;
+                self.text_item(at, line, element)?;
+            }
+            source.at_line()
         } else {
             let at = source.at_byte();
             self.binary_item(source, element)?;
@@ -93,6 +96,25 @@ impl Items {
             _ => {}
         }
         Ok(())
+    }
+
+    /// Reads an item that is a point first of all, or a polygon, from its line in the usual form.
+    fn quick(&mut self, source: &mut Source<'_>, element: &Element) -> Option<()> {
+        const POINT: [Use; 3] = [Use::Coordinate(0), Use::Coordinate(1), Use::Coordinate(2)];
+        let scalar = |property: &(Kind, Use)| matches!(property.0, Kind::Scalar(_));
+        match element.properties[..] {
+            [x, y, z, ref others @ ..] if [x.1, y.1, z.1] == POINT && others.iter().all(scalar) => {
+                self.point = source.quick(|scan| {
+                    let point = scan.numbers(&mut self.digits)?;
+                    others.iter().try_for_each(|_| scan.skip_number())?;
+                    scan.end_line()?;
+                    Some(point.map(|x| x + 0.))
+                })?;
+                Some(())
+            }
+            [(_, Use::Indices)] => source.quick(|scan| scan.polygon(self.n_vertices, &mut self.polygon)),
+            _ => None,
+        }
     }
 
     fn text_item(&mut self, at: At<'_>, line: &str, element: &Element) -> Result<(), MeshFileError> {

@@ -4,6 +4,7 @@ use super::{FACET, HEADER};
 use crate::files::error::{MeshFileError, Problem};
 use crate::files::format::{MeshFormat, SurfaceFile};
 use crate::files::precision::{Digits, Precision};
+use crate::files::scan::Scan;
 use crate::files::source::{At, MARK, Source};
 use crate::files::weld::{Bits, Weld, Welder};
 use crate::files::words::{Words, words_of};
@@ -82,7 +83,12 @@ fn corner(at: At<'_>, facet: &[u8; FACET], start: usize) -> Result<[f32; 3], Mes
 pub(crate) fn read_text(source: &mut Source<'_>) -> Result<SurfaceFile, MeshFileError> {
     let mut text = TextReader { state: State::Outside, corners: Vec::new(), digits: Digits::default() };
     let mut facets = Facets::<f64>::new();
-    while let Some((at, line)) = source.line()? {
+    loop {
+        while text.state == State::Solid && facets.has_room() {
+            let Some(corners) = source.quick(|scan| facet(scan, &mut text.digits)) else { break };
+            facets.push(source.at_line(), corners)?;
+        }
+        let Some((at, line)) = source.line()? else { break };
         text.line(at, line, &mut facets)?;
     }
     if text.state != State::Outside {
@@ -90,6 +96,29 @@ pub(crate) fn read_text(source: &mut Source<'_>) -> Result<SurfaceFile, MeshFile
     }
     let precision = text.digits.precision();
     facets.finish(source, MeshFormat::StlText, precision)
+}
+
+/// A facet in seven lines.
+fn facet(scan: &mut Scan<'_>, digits: &mut Digits) -> Option<[[f64; 3]; 3]> {
+    scan.keyword("facet")?;
+    scan.keyword("normal")?;
+    for _ in 0..3 {
+        scan.skip_number()?;
+    }
+    scan.end_line()?;
+    scan.keyword("outer")?;
+    scan.keyword("loop")?;
+    scan.end_line()?;
+    let mut corners = [[0.; 3]; 3];
+    for corner in &mut corners {
+        scan.keyword("vertex")?;
+        *corner = scan.coordinates(digits)?;
+    }
+    for keyword in ["endloop", "endfacet"] {
+        scan.keyword(keyword)?;
+        scan.end_line()?;
+    }
+    Some(corners)
 }
 
 /// What has been opened and not closed.
@@ -198,6 +227,10 @@ struct Facets<T> {
 impl<T: Bits> Facets<T> {
     fn new() -> Self {
         Self { welder: Welder::new(), indices: Vec::new(), corners: 0 }
+    }
+
+    fn has_room(&self) -> bool {
+        self.indices.len() + 3 < u32::MAX as usize
     }
 
     fn push(&mut self, at: At<'_>, corners: [[T; 3]; 3]) -> Result<(), MeshFileError> {
