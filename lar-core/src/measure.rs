@@ -19,11 +19,12 @@ pub(crate) fn dot(a: Vec3, b: Vec3) -> f64 {
 
 /// Point `i` in space: missing coordinates are 0, those after the third are left out.
 pub(crate) fn xyz(points: &Points, i: usize) -> Vec3 {
-    let mut xyz = [0.; 3];
-    for (to, &from) in xyz.iter_mut().zip(points.point(i)) {
-        *to = from;
+    match *points.point(i) {
+        [x, y, z, ..] => [x, y, z],
+        [x, y] => [x, y, 0.],
+        [x] => [x, 0., 0.],
+        [] => [0.; 3],
     }
-    xyz
 }
 
 /// Signed area of a loop of plane points, positive when counter-clockwise; relative to its first vertex.

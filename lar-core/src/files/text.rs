@@ -50,8 +50,9 @@ pub(crate) fn push_number(text: &mut Vec<u8>, x: f64) {
     let mut buffer = zmij::Buffer::new();
     let shortest = buffer.format_finite(x);
     let number = shortest.strip_suffix(".0").unwrap_or(shortest).as_bytes();
-    // A positive exponent is written without its sign.
-    match number.iter().position(|&byte| byte == b'+') {
+    // A positive exponent, which no number below 10^15 has, is written without its sign.
+    let signed = if x.abs() < 1e15 { None } else { number.iter().position(|&byte| byte == b'+') };
+    match signed {
         None => text.extend_from_slice(number),
         Some(sign) => {
             text.extend_from_slice(&number[..sign]);

@@ -15,11 +15,11 @@ pub(crate) fn write_binary(mesh: &impl PolygonMesh, out: &mut dyn Write) -> io::
     let n = u32::try_from(mesh.n_faces()).expect("checked: fewer than 2^32 faces");
     out.write_all(&n.to_le_bytes())?;
     for triangle in polygons(mesh) {
-        let corners = corners(mesh, triangle);
+        let [a, b, c] = corners(mesh, triangle);
         let mut facet = [0; FACET];
-        let numbers = std::iter::once(normal(corners)).chain(corners).flatten();
-        for (bytes, x) in facet.chunks_exact_mut(4).zip(numbers) {
-            bytes.copy_from_slice(&(x as f32).to_le_bytes());
+        let vectors = [normal([a, b, c]), a, b, c];
+        for (bytes, &x) in facet.as_chunks_mut().0.iter_mut().zip(vectors.as_flattened()) {
+            *bytes = (x as f32).to_le_bytes();
         }
         out.write_all(&facet)?;
     }
