@@ -79,6 +79,26 @@ impl<T: Bits, const D: usize> Welder<T, D> {
         self.slots[slot]
     }
 
+    /// The vertices at points, as [`vertex`](Self::vertex) has them one after the other. Where the table is larger than
+    /// the caches this is quicker: no look-up waits for the one before.
+    pub(crate) fn batch(&mut self, points: &[[T; D]], vertices: &mut Vec<u32>) {
+        while self.len() + points.len() > self.slots.len() / 2 {
+            self.grow();
+        }
+        let mask = self.slots.len() - 1;
+        vertices.clear();
+        vertices.extend(points.iter().map(|&point| self.slots[hash(point) & mask]));
+        for (vertex, &point) in vertices.iter_mut().zip(points) {
+            if *vertex != EMPTY && !equal(self.point(*vertex), point) {
+                *vertex = EMPTY;
+            }
+        }
+        // What is not there, or not where it was looked for first.
+        for (vertex, &point) in vertices.iter_mut().zip(points).filter(|(vertex, _)| **vertex == EMPTY) {
+            *vertex = self.vertex(point);
+        }
+    }
+
     /// The points, vertex after vertex.
     pub(crate) fn into_points(self) -> Points {
         let Self { mut blocks, n, slots } = self;
@@ -148,6 +168,22 @@ fn equal<T: Bits, const D: usize>(a: [T; D], b: [T; D]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn batches_are_welded_like_single_points() {
+        let points: Vec<_> = (0..5000_u32).map(|i| [f64::from(i * i % 1009), f64::from(i % 3)]).collect();
+        let mut one_by_one = Welder::new();
+        let expected: Vec<_> = points.iter().map(|&point| one_by_one.vertex(point)).collect();
+        for size in [1, 7, 192, 5000] {
+            let (mut welder, mut batch, mut found) = (Welder::new(), Vec::new(), Vec::new());
+            for points in points.chunks(size) {
+                welder.batch(points, &mut batch);
+                found.extend_from_slice(&batch);
+            }
+            assert_eq!(found, expected);
+            assert_eq!(welder.len(), one_by_one.len());
+        }
+    }
 
     #[test]
     fn equal_points_are_one_vertex() {

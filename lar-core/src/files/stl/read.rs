@@ -218,37 +218,60 @@ fn number(at: At<'_>, words: &mut Words<'_>) -> Result<(), MeshFileError> {
     word.parse::<f64>().map(|_| ()).map_err(|_| at.expected("a number", word))
 }
 
+/// Corners welded at a time: facets whose bytes and whose places in the table the first cache holds.
+const BATCH: usize = 3 * 64;
+
 struct Facets<T> {
     welder: Welder<T, 3>,
     indices: Vec<u32>,
     corners: usize,
+    /// Corners to be welded.
+    pending: Vec<[T; 3]>,
+    /// Their vertices.
+    welded: Vec<u32>,
 }
 
 impl<T: Bits> Facets<T> {
     fn new() -> Self {
-        Self { welder: Welder::new(), indices: Vec::new(), corners: 0 }
+        let (pending, welded) = (Vec::with_capacity(BATCH), Vec::with_capacity(BATCH));
+        Self { welder: Welder::new(), indices: Vec::new(), corners: 0, pending, welded }
     }
 
+    /// Whether one more facet fits for sure.
     fn has_room(&self) -> bool {
-        self.indices.len() + 3 < u32::MAX as usize
+        self.indices.len() + self.pending.len() + 3 < u32::MAX as usize
     }
 
     fn push(&mut self, at: At<'_>, corners: [[T; 3]; 3]) -> Result<(), MeshFileError> {
-        at.check_size(self.indices.len() + 3)?;
+        if !self.has_room() {
+            self.weld();
+            at.check_size(self.indices.len() + 3)?;
+        }
         self.corners += 3;
-        let [a, b, c] = corners.map(|corner| self.welder.vertex(corner));
-        if a != b && b != c && c != a {
-            self.indices.extend([a, b, c]);
+        self.pending.extend(corners);
+        if self.pending.len() == BATCH {
+            self.weld();
         }
         Ok(())
     }
 
+    fn weld(&mut self) {
+        self.welder.batch(&self.pending, &mut self.welded);
+        self.pending.clear();
+        for &[a, b, c] in self.welded.as_chunks().0 {
+            if a != b && b != c && c != a {
+                self.indices.extend([a, b, c]);
+            }
+        }
+    }
+
     fn finish(
-        self,
+        mut self,
         source: &Source<'_>,
         format: MeshFormat,
         precision: Precision,
     ) -> Result<SurfaceFile, MeshFileError> {
+        self.weld();
         if self.indices.is_empty() {
             return Err(source.at_byte().error(Problem::NoFaces));
         }
