@@ -62,16 +62,19 @@ pub(crate) fn assemble(
     };
     let edges = std::mem::take(&mut dissolved.edges);
     let n_edges = edges.len();
-    let ((points, boundary_1), above) = parallel::join(
-        || (positions(&soup, &vertices), boundary_1(vertices.len(), edges)),
-        || {
-            let of_faces = || boundary_2(n_edges, &dissolved.loops, &dissolved.face_loops);
-            let of_cells = || boundary_3(&cells_of_face, shells.n_cells as usize);
-            (operators == Operators::All).then(|| parallel::join(of_faces, of_cells))
-        },
-    );
-    let above = above.into_iter().flat_map(|(boundary_2, boundary_3)| [boundary_2, boundary_3]);
-    let complex = ChainComplex::new(points, [boundary_1].into_iter().chain(above).collect());
+    let points = positions(&soup, &vertices);
+    let of_edges = || boundary_1(vertices.len(), edges);
+    let of_faces = || boundary_2(n_edges, &dissolved.loops, &dissolved.face_loops);
+    let of_cells = || boundary_3(&cells_of_face, shells.n_cells as usize);
+    let boundaries = match operators {
+        Operators::Edges => vec![of_edges()],
+        // The second takes as long as the others.
+        Operators::All => {
+            let (two, (one, three)) = parallel::join(of_faces, || (of_edges(), of_cells()));
+            vec![one, two, three]
+        }
+    };
+    let complex = ChainComplex::new(points, boundaries);
     stats.grid_step = soup.grid.step();
     stats.facets = soup.n_facets() as u64;
     stats.triangulated_polygons = u64::from(soup.triangulated);

@@ -3,6 +3,9 @@
 use crate::parallel;
 use std::ops::Range;
 
+/// Points are looked at so many at a time.
+const BLOCK: usize = 256;
+
 /// Open addressing: at least half of the slots are empty.
 #[derive(Debug, Default)]
 pub(crate) struct PointTable {
@@ -30,7 +33,16 @@ impl Unified {
             parallel::cut(&mut table.slots, (0..parallel::n_threads()).map(|part| part_of(part).len()));
         let filled = parallel::map_each(parts, |part, slots| {
             let mut part = Part { slots, range: part_of(part), bits: n_slots.ilog2(), ..Part::default() };
-            points.iter().zip(0..).for_each(|(&point, i)| part.insert(point, i, at));
+            let mut own = [(0, 0); BLOCK];
+            for (block, begin) in points.chunks(BLOCK).zip((0..).step_by(BLOCK)) {
+                let mut n = 0;
+                // Without a branch: it is by chance whose a point is.
+                for (&point, i) in block.iter().zip(begin..) {
+                    own[n] = (hash(point), i);
+                    n += usize::from(part.place(own[n].0).is_some());
+                }
+                own[..n].iter().for_each(|&(hash, i)| part.insert(hash, i, at));
+            }
             (part.repeated, part.left)
         });
         let mut repeated = Vec::new();
@@ -85,20 +97,20 @@ struct Part<'a> {
 }
 
 impl Part<'_> {
-    /// Adds a point with a place in the part.
-    fn insert(&mut self, point: [i64; 3], i: u32, at: impl Fn(u32) -> [i64; 3]) {
-        let hash = hash(point);
-        let Some(home) =
-            home(hash, self.bits).checked_sub(self.range.start).filter(|&i| i < self.slots.len())
-        else {
-            return;
-        };
+    /// Where a point belongs in the part, if it does.
+    fn place(&self, hash: u64) -> Option<usize> {
+        home(hash, self.bits).checked_sub(self.range.start).filter(|&i| i < self.slots.len())
+    }
+
+    /// Adds a point if it has a place in the part.
+    fn insert(&mut self, hash: u64, i: u32, at: impl Fn(u32) -> [i64; 3]) {
+        let Some(home) = self.place(hash) else { return };
         for entry in &mut self.slots[home..] {
             if *entry == 0 {
                 *entry = tag(hash) | (u64::from(i) + 1);
                 return;
             }
-            if *entry & TAG == tag(hash) && at(id(*entry)) == point {
+            if *entry & TAG == tag(hash) && at(id(*entry)) == at(i) {
                 self.repeated.push((i, id(*entry)));
                 return;
             }

@@ -56,11 +56,30 @@ impl HalfEdges<'_> {
     }
 }
 
-/// For each half-edge the first one of its edge: itself, when it comes first. O(n log d) for at most d edges at a vertex.
+/// For each half-edge the first one of its edge: itself, when it comes first. O(n log n).
 pub(crate) fn first_of_edge(n_points: usize, half_edges: HalfEdges<'_>) -> Vec<u32> {
+    if half_edges.len() < n_points / 16 {
+        return firsts_by_sorting(half_edges);
+    }
     shared_firsts(n_points, half_edges).into_iter().map(AtomicU32::into_inner).collect()
 }
 
+/// The same where most points have none, and looking at all points would take longer.
+fn firsts_by_sorting(half_edges: HalfEdges<'_>) -> Vec<u32> {
+    let keyed = |h: usize| {
+        let [p, q] = half_edges.ends(h);
+        ([p.min(q), p.max(q)], h as u32)
+    };
+    let mut sorted: Vec<([u32; 2], u32)> = (0..half_edges.len()).map(keyed).collect();
+    sorted.sort_unstable();
+    let mut first = vec![0; sorted.len()];
+    for edge in sorted.chunk_by(|a, b| a.0 == b.0) {
+        edge.iter().for_each(|&(_, h)| first[h as usize] = edge[0].1);
+    }
+    first
+}
+
+/// O(n log d) for at most d edges at a vertex.
 fn shared_firsts(n_points: usize, half_edges: HalfEdges<'_>) -> Vec<AtomicU32> {
     let first = parallel::atomic_zeros(half_edges.len());
     // Every part reads all half-edges and sorts those of its points: as many parts as there are threads.
@@ -192,5 +211,9 @@ mod tests {
         assert_eq!(codes, [0, 2, 5, 3, 6, 9, 4, 3, 1]);
         let facets = facets_of_edges(5, &Cells::uniform(3, codes));
         assert_eq!(facets, [[0, 2], [0, MANY], [2, 0], [1, NONE], [NONE, 1]]);
+        for n_points in [4, 400] {
+            let half_edges = HalfEdges::Listed { tails: &tails, heads: &heads };
+            assert_eq!(first_of_edge(n_points, half_edges), [0, 1, 2, 1, 4, 5, 2, 1, 0]);
+        }
     }
 }

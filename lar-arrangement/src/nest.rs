@@ -6,6 +6,7 @@
 //! leaves and the one that it meets next bound the same cell; beyond the last hit it is in the exterior. As every
 //! ray ends there, it does not matter that two components may hit each other.
 
+use crate::parallel;
 use crate::progress::{Cancelled, Course};
 use crate::rays::Rays;
 use crate::union_find::UnionFind;
@@ -48,11 +49,15 @@ impl Nesting<'_> {
 
     /// One edge of each component.
     fn first_edges(&self) -> Vec<u32> {
-        let (component_of_shell, n_components) = wrap::components(self.shell_of_side, self.n_shells);
-        let mut seen = vec![false; n_components as usize];
-        let mut found = Vec::with_capacity(n_components as usize);
-        for (face, &shell) in (0..).zip(self.shell_of_side.iter().step_by(2)) {
-            let component = component_of_shell[shell as usize] as usize;
+        let sides = self.shell_of_side.as_chunks::<2>().0;
+        // A face between the same shells as the one before tells nothing new.
+        let telling = parallel::select(sides.len(), |f| f == 0 || sides[f as usize] != sides[f as usize - 1]);
+        let telling = || telling.iter().map(|&face| (face, sides[face as usize]));
+        let (component_of_shell, n) = wrap::components(telling().map(|(_, sides)| sides), self.n_shells);
+        let mut seen = vec![false; n as usize];
+        let mut found = Vec::with_capacity(n as usize);
+        for (face, [front, _]) in telling() {
+            let component = component_of_shell[front as usize] as usize;
             if !std::mem::replace(&mut seen[component], true) {
                 let h = self.rays.skeleton.half_edges(face).next().expect("faces have edges");
                 found.push(h / 2);

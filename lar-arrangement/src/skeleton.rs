@@ -3,15 +3,18 @@
 //!
 //! Holds afterwards: vertices are pairwise distinct points, edges pairwise distinct, ∂1∂2 = 0.
 
-use crate::fragment::{FacetParent, Fragments, Groups, Piece, WHOLE};
-use crate::half_edges::{self, HalfEdges};
+mod faces;
+mod numbering;
+
+use crate::fragment::{FacetParent, Fragments, Groups, WHOLE};
 use crate::interner::Interner;
 use crate::kernel::{Along, Direction, Geometry, Vertex, VertexDef};
 use crate::parallel;
 use crate::soup::Soup;
 use crate::split::Cuts;
+use faces::Faces;
 use lar_core::Cells;
-use rustc_hash::FxHashMap;
+use numbering::Numbering;
 use std::ops::Range;
 
 /// Vertices, edges and faces of the arrangement; no 3-cells yet.
@@ -93,11 +96,28 @@ impl Skeleton {
         }
         let parts = Parts { fragments: &fragments, groups, soup };
         let n_vertices = interner.vertices.len();
-        let ((vertices, compact), edges) =
-            parallel::join(|| used_vertices(&parts, interner), || Edges::new(&parts, cuts, n_vertices));
-        let (faces, edges) = parallel::join(|| faces(&parts), || edges.built(&parts, compact));
-        let Edges { edges, pieces, directions, soft, loops, .. } = edges;
-        Self { vertices, edges, pieces, directions, soft, loops, ..faces }
+        let ((vertices, compact), mut numbering) =
+            parallel::join(|| used_vertices(&parts, interner), || Numbering::new(&parts, cuts, n_vertices));
+        let edges = match compact {
+            None => numbering.edges(|v| v),
+            Some(compact) => numbering.edges(|v| compact[v as usize]),
+        };
+        let soft = numbering.soft(edges.len());
+        let Faces { loops, face_loops, parents, parent_offsets, of_groups } = Faces::new(&parts, &numbering);
+        let faces_of_facets = FacesOfFacets::new(groups, &of_groups);
+        let Numbering { pieces, directions, .. } = numbering;
+        Self {
+            vertices,
+            edges,
+            pieces,
+            directions,
+            soft,
+            loops,
+            face_loops,
+            parents,
+            parent_offsets,
+            faces_of_facets,
+        }
     }
 
     /// Lets go of what only stages 4 and 5 need, once the loops are those of the arrangement.
@@ -165,30 +185,18 @@ struct Parts<'a> {
     soup: &'a Soup,
 }
 
-/// What is done with faces one after the other.
-trait Take {
-    /// A facet that nothing touches.
-    fn facet(&mut self, soup: &Soup, facet: u32);
-    /// The faces of a group, and the number of the first piece of its part among those of all parts.
-    fn group(&mut self, soup: &Soup, part: &Fragments, group: usize, first_piece: u32);
-}
-
-impl Parts<'_> {
-    /// All faces in their order: groups stand in the places of their first facets.
-    fn each(&self, take: &mut impl Take) {
-        let (soup, is_member) = (self.soup, &self.groups.is_member);
-        let mut leaders = self.groups.leaders.iter();
-        let (mut done, mut first_piece) = (0, 0);
-        for part in self.fragments {
-            for (group, &leader) in (0..part.group_ends.len()).zip(&mut leaders) {
-                let before = (done..leader).filter(|&f| !is_member[f as usize]);
-                before.for_each(|f| take.facet(soup, f));
-                take.group(soup, part, group, first_piece);
-                done = leader;
-            }
-            first_piece += part.pieces.len() as u32;
-        }
-        (done..soup.n_facets() as u32).filter(|&f| !is_member[f as usize]).for_each(|f| take.facet(soup, f));
+impl<'a> Parts<'a> {
+    /// The groups in their order.
+    fn each_group(&self) -> impl Iterator<Item = Group<'a>> {
+        let begins = self.fragments.iter().scan((0, 0), |(pieces, half_edges), part| {
+            let begin = (*pieces, *half_edges);
+            *pieces += part.pieces.len() as u32;
+            *half_edges += part.half_edges.len();
+            Some((part, begin))
+        });
+        begins.flat_map(|(part, (first_piece, first_half_edge))| {
+            (0..part.group_ends.len()).map(move |group| Group { part, group, first_piece, first_half_edge })
+        })
     }
 
     fn sum(&self, of: impl Fn(&Fragments) -> usize) -> usize {
@@ -196,11 +204,34 @@ impl Parts<'_> {
     }
 }
 
-/// A list that begins with 0, with room for n more.
-fn with_zero(n: usize) -> Vec<u32> {
-    let mut list = Vec::with_capacity(n + 1);
-    list.push(0);
-    list
+/// The faces of a group.
+struct Group<'a> {
+    part: &'a Fragments,
+    /// Which of its part.
+    group: usize,
+    /// The number of the first piece of its part among those of all parts.
+    first_piece: u32,
+    /// The same for half-edges.
+    first_half_edge: usize,
+}
+
+impl Group<'_> {
+    fn faces(&self) -> Range<usize> {
+        range_before(&self.part.group_ends, self.group)
+    }
+
+    fn loops(&self, face: usize) -> Range<usize> {
+        range_before(&self.part.face_ends, face)
+    }
+
+    fn parents(&self, face: usize) -> &[FacetParent] {
+        &self.part.parents[range_before(&self.part.parent_ends, face)]
+    }
+
+    /// The half-edges of a loop in its part.
+    fn half_edges(&self, cycle: usize) -> Range<usize> {
+        range_before(&self.part.loop_ends, cycle)
+    }
 }
 
 fn range_before(ends: &[u32], i: usize) -> Range<usize> {
@@ -208,249 +239,41 @@ fn range_before(ends: &[u32], i: usize) -> Range<usize> {
     begin..ends[i] as usize
 }
 
-/// The number of loops of all faces, and the facets that they are pieces of.
-fn faces(parts: &Parts<'_>) -> Skeleton {
-    let n = parts.soup.n_facets() + parts.sum(|part| part.face_ends.len());
-    let mut faces = Faces {
-        out: Skeleton {
-            face_loops: with_zero(n),
-            parents: Vec::with_capacity(n),
-            parent_offsets: with_zero(n),
-            ..Skeleton::default()
-        },
-        n_loops: 0,
-        of_groups: Vec::with_capacity(parts.groups.leaders.len()),
+/// The vertices that edges end at, in their order, and the new number of each (only those of used ones count); none when all
+/// are used.
+fn used_vertices(parts: &Parts<'_>, interner: Interner) -> (Vec<Vertex>, Option<Vec<u32>>) {
+    let mut vertices = interner.vertices;
+    let used = parallel::map(parallel::n_threads(), |part| used_in(parts, part, vertices.len()));
+    let is_used = |v: usize| used.iter().any(|used| used[v]);
+    if parallel::all(vertices.len(), is_used) {
+        return (vertices, None);
+    }
+    let mut n = 0;
+    let number = |v: usize| {
+        n += u32::from(is_used(v));
+        n - u32::from(is_used(v))
     };
-    parts.each(&mut faces);
-    faces.out.faces_of_facets = FacesOfFacets::new(parts.groups, &faces.of_groups);
-    faces.out
+    let compact = (0..vertices.len()).map(number).collect();
+    let mut all = 0..vertices.len();
+    vertices.retain(|_| all.next().is_some_and(is_used));
+    (vertices, Some(compact))
 }
 
-struct Faces {
-    out: Skeleton,
-    n_loops: u32,
-    of_groups: Vec<Range<u32>>,
-}
-
-impl Faces {
-    fn push(&mut self, n_loops: usize, parents: &[FacetParent]) {
-        self.n_loops += n_loops as u32;
-        self.out.face_loops.push(self.n_loops);
-        self.out.parents.extend_from_slice(parents);
-        self.out.parent_offsets.push(self.out.parents.len() as u32);
-    }
-}
-
-impl Take for Faces {
-    fn facet(&mut self, soup: &Soup, facet: u32) {
-        let codes = &soup.facet_edges[facet as usize];
-        let n_loops = if codes.len() == 3 { 1 } else { loops_of(soup, codes).count() };
-        self.push(n_loops, &[FacetParent { facet, same_way: true }]);
-    }
-
-    fn group(&mut self, _: &Soup, part: &Fragments, group: usize, _: u32) {
-        let first = self.out.n_faces() as u32;
-        for face in range_before(&part.group_ends, group) {
-            let parents = &part.parents[range_before(&part.parent_ends, face)];
-            self.push(range_before(&part.face_ends, face).len(), parents);
-        }
-        self.of_groups.push(first..self.out.n_faces() as u32);
-    }
-}
-
-/// The loops of a facet.
-fn loops_of<'a>(soup: &'a Soup, codes: &'a [u32]) -> impl Iterator<Item = &'a [u32]> {
-    let mut rest = codes;
-    std::iter::from_fn(move || {
-        let first = soup.directed(*rest.first()?)[0];
-        let last = rest.iter().position(|&code| soup.directed(code)[1] == first).expect("loops are closed");
-        let (codes, after) = rest.split_at(last + 1);
-        rest = after;
-        Some(codes)
-    })
-}
-
-const NOT_SEEN: u32 = u32::MAX;
-
-/// Edges and loops.
-struct Edges<'a> {
-    soup: &'a Soup,
-    cuts: &'a Cuts,
-    edges: Vec<[u32; 2]>,
-    pieces: Vec<u32>,
-    directions: Vec<Direction>,
-    soft: Vec<bool>,
-    /// Whether there may be soft edges.
-    any_soft: bool,
-    loops: Cells,
-    /// New number of each vertex.
-    compact: Vec<u32>,
-    /// Edge that each input edge without inner points became.
-    whole: Vec<u32>,
-    /// Input edges that pieces may be, by their ends.
-    input_edges: FxHashMap<[u32; 2], u32>,
-    /// Of all pieces of all parts, the first one with the same ends.
-    first_piece: Vec<u32>,
-    /// The edge that each first piece is.
-    edge_of_first: Vec<u32>,
-    one_loop: Vec<u32>,
-}
-
-impl<'a> Edges<'a> {
-    fn new(parts: &Parts<'a>, cuts: &'a Cuts, n_vertices: usize) -> Self {
-        let soup = parts.soup;
-        let n_pieces = parts.sum(|part| part.pieces.len());
-        let n_edges = soup.edges.len() + n_pieces / 2;
-        let n_loops = soup.n_facets() + parts.sum(|part| part.loop_ends.len());
-        let n_half_edges = soup.facet_edges.indices().len() + parts.sum(|part| part.half_edges.len());
-        let pieces = || parts.fragments.iter().flat_map(|part| &part.pieces);
-        let n_points = soup.geometry.n_points() as u32;
-        let between_points =
-            pieces().map(|piece| piece.ends).filter(|ends| ends.iter().all(|&v| v < n_points));
-        let (tails, heads): (Vec<u32>, Vec<u32>) =
-            pieces().map(|piece| (piece.ends[0], piece.ends[1])).unzip();
-        let half_edges = HalfEdges::Listed { tails: &tails, heads: &heads };
-        let first_piece = half_edges::first_of_edge(n_vertices, half_edges);
-        Self {
-            soup,
-            cuts,
-            edges: Vec::with_capacity(n_edges),
-            pieces: Vec::new(),
-            directions: Vec::new(),
-            soft: Vec::new(),
-            any_soft: soup.has_soft_edges() || pieces().any(|piece| piece.soft),
-            loops: Cells::with_capacity(n_loops, n_half_edges),
-            compact: Vec::new(),
-            whole: vec![NOT_SEEN; soup.edges.len()],
-            input_edges: soup.edges_between(between_points.map(|[a, b]| [a.min(b), a.max(b)])),
-            edge_of_first: vec![NOT_SEEN; first_piece.len()],
-            first_piece,
-            one_loop: Vec::new(),
+/// Whether each of n vertices is one of a part of the facets or of their groups.
+fn used_in(parts: &Parts<'_>, part: usize, n: usize) -> Vec<bool> {
+    let (soup, is_member) = (parts.soup, &parts.groups.is_member);
+    let mut used = vec![false; n];
+    for f in parallel::part_of(soup.n_facets(), part).filter(|&f| !is_member[f]) {
+        match &soup.facet_edges[f] {
+            [_, _, _] => soup.geometry.base(f as u32).iter().for_each(|&p| used[p as usize] = true),
+            edges => edges.iter().for_each(|&code| used[soup.directed(code)[0] as usize] = true),
         }
     }
-
-    /// With all faces, vertices getting new numbers.
-    fn built(mut self, parts: &Parts<'_>, compact: Vec<u32>) -> Self {
-        self.compact = compact;
-        parts.each(&mut self);
-        self
-    }
-
-    /// The edge that an input edge without inner points is. Its ends ascend, and so do their new numbers.
-    fn whole_edge(&mut self, edge: u32) -> u32 {
-        let known = self.whole[edge as usize];
-        if known != NOT_SEEN {
-            return known;
-        }
-        let ends = self.soup.edges[edge as usize];
-        let id = self.push_edge(ends.map(|v| self.compact[v as usize]), self.soup.is_soft(edge));
-        self.whole[edge as usize] = id;
-        id
-    }
-
-    /// The half-edge that a directed edge of the input is.
-    fn whole_half_edge(&mut self, code: u32) -> u32 {
-        2 * self.whole_edge(code / 2) + code % 2
-    }
-
-    /// The half-edge of a piece, the first of its part being `base`, in its direction. A piece with the ends of an unsplit
-    /// input edge is that edge.
-    fn half_edge(&mut self, part: &Fragments, piece: u32, base: u32) -> u32 {
-        let first = self.first_piece[(base + piece) as usize] as usize;
-        let piece = &part.pieces[piece as usize];
-        let [a, b] = piece.ends;
-        if self.edge_of_first[first] == NOT_SEEN {
-            self.edge_of_first[first] = self.edge_of_piece(piece);
-        }
-        let id = self.edge_of_first[first];
-        if self.any_soft {
-            self.soft[id as usize] &= piece.soft;
-        }
-        2 * id + u32::from(a > b)
-    }
-
-    fn edge_of_piece(&mut self, piece: &Piece) -> u32 {
-        let [a, b] = piece.ends;
-        let ends = [a.min(b), a.max(b)];
-        let is_whole = |&edge: &u32| self.cuts.inner.of(edge).is_empty();
-        if let Some(edge) = self.input_edges.get(&ends).copied().filter(is_whole) {
-            return self.whole_edge(edge);
-        }
-        let id = self.push_edge(ends.map(|v| self.compact[v as usize]), true);
-        self.pieces.push(id);
-        self.directions.push(if a < b { piece.direction } else { piece.direction.opposite() });
-        id
-    }
-
-    fn push_edge(&mut self, ends: [u32; 2], soft: bool) -> u32 {
-        self.edges.push(ends);
-        if self.any_soft {
-            self.soft.push(soft);
-        }
-        self.edges.len() as u32 - 1
-    }
-}
-
-impl Take for Edges<'_> {
-    fn facet(&mut self, soup: &Soup, facet: u32) {
-        let codes = &soup.facet_edges[facet as usize];
-        if let &[a, b, c] = codes {
-            let cycle = [a, b, c].map(|code| self.whole_half_edge(code));
-            self.loops.push(&cycle);
-            return;
-        }
-        for codes in loops_of(soup, codes) {
-            self.one_loop.clear();
-            for &code in codes {
-                let half_edge = self.whole_half_edge(code);
-                self.one_loop.push(half_edge);
-            }
-            self.loops.push(&self.one_loop);
-        }
-    }
-
-    fn group(&mut self, _: &Soup, part: &Fragments, group: usize, first_piece: u32) {
-        for l in range_before(&part.group_ends, group).flat_map(|face| range_before(&part.face_ends, face)) {
-            self.one_loop.clear();
-            for &h in &part.half_edges[range_before(&part.loop_ends, l)] {
-                let half_edge = match h & WHOLE {
-                    0 => self.half_edge(part, h / 2, first_piece) ^ (h % 2),
-                    _ => self.whole_half_edge(h ^ WHOLE),
-                };
-                self.one_loop.push(half_edge);
-            }
-            self.loops.push(&self.one_loop);
-        }
-    }
-}
-
-/// The vertices that edges end at, in their order, and the new number of each (only those of used ones count).
-fn used_vertices(parts: &Parts<'_>, interner: Interner) -> (Vec<Vertex>, Vec<u32>) {
-    let soup = parts.soup;
-    let mut used = vec![false; interner.vertices.len()];
-    for part in parts.fragments {
-        part.pieces.iter().for_each(|piece| piece.ends.iter().for_each(|&v| used[v as usize] = true));
+    for part in &parts.fragments[parallel::part_of(parts.fragments.len(), part)] {
+        part.pieces.iter().flat_map(|piece| &piece.ends).for_each(|&v| used[v as usize] = true);
         for &h in part.half_edges.iter().filter(|h| *h & WHOLE != 0) {
             used[soup.directed(h ^ WHOLE)[0] as usize] = true;
         }
     }
-    let is_member = &parts.groups.is_member;
-    for (edges, facet) in soup.facet_edges.iter().zip(0..).filter(|(_, f)| !is_member[*f as usize]) {
-        match edges.len() {
-            3 => soup.geometry.base(facet).iter().for_each(|&p| used[p as usize] = true),
-            _ => edges.iter().for_each(|&code| used[soup.directed(code)[0] as usize] = true),
-        }
-    }
-    let mut n = 0;
-    let number = |&used: &bool| {
-        n += u32::from(used);
-        n - u32::from(used)
-    };
-    let compact = used.iter().map(number).collect();
-    let mut vertices = interner.vertices;
-    if n as usize != vertices.len() {
-        let mut is_used = used.iter();
-        vertices.retain(|_| is_used.next() == Some(&true));
-    }
-    (vertices, compact)
+    used
 }

@@ -237,8 +237,8 @@ impl Soup {
             is_wanted[low as usize] = true;
             any = true;
         }
-        let edges = self.edges.iter().copied().zip(0..).filter(|_| any);
-        edges.filter(|([low, _], _)| is_wanted[*low as usize]).collect()
+        let edges = if any { self.edges.as_slice() } else { &[] };
+        edges.iter().copied().zip(0..).filter(|([low, _], _)| is_wanted[*low as usize]).collect()
     }
 
     /// What crossing a face, from its front to its back, adds to the winding number of one of its parents' solid.

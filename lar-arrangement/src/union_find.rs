@@ -120,6 +120,9 @@ impl Part<'_> {
     }
 
     fn union(&mut self, x: u32, y: u32) -> bool {
+        if *self.at(x) == *self.at(y) {
+            return false;
+        }
         let (x, y) = (self.find(x), self.find(y));
         *self.at(x.max(y)) = x.min(y);
         x != y

@@ -83,7 +83,7 @@ impl Patches {
             }
         }
         let (of_side, n_sides) = sides.labels();
-        let (patch_of_side, n) = wrap::components(&of_side, n_sides);
+        let (patch_of_side, n) = wrap::components(of_side.as_chunks::<2>().0.iter().copied(), n_sides);
         let of_face: Vec<u32> = of_side.iter().step_by(2).map(|&side| patch_of_side[side as usize]).collect();
         let all: Vec<u32> = (0..n_faces as u32).collect();
         let (offsets, faces) = sorted_by_place(n as usize, &all, |&f| of_face[f as usize] as usize);

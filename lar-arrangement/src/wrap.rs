@@ -31,7 +31,7 @@ pub(crate) fn rings(skeleton: &Skeleton, geometry: &Geometry) -> Cells {
     let n = skeleton.edges.len();
     let (offsets, mut entries) = faces_at_edges(n, &skeleton.loops, &skeleton.face_loops);
     let of = |edge: u32| offsets[edge as usize] as usize..offsets[edge as usize + 1] as usize;
-    let crowded: Vec<u32> = (0..n as u32).filter(|&edge| of(edge).len() > 2).collect();
+    let crowded = parallel::select(n, |edge| of(edge).len() > 2);
     let (n_chunks, range) = parallel::chunks(crowded.len(), 1024);
     let sorted = parallel::map(n_chunks, |chunk| {
         let mut out = Vec::new();
@@ -54,21 +54,33 @@ pub(crate) fn rings(skeleton: &Skeleton, geometry: &Geometry) -> Cells {
 }
 
 /// For every edge the faces that have it in a loop, ascending: 2 · face, + 1 where the loop runs against the edge. The loops of
-/// face f are `face_loops[f]..face_loops[f + 1]`. O(size of the loops) for each thread.
+/// face f are `face_loops[f]..face_loops[f + 1]`. O(size of the loops). Every thread takes its part of the faces and notes
+/// those at edges outside its part of the edges for others: early faces should have early edges.
 pub(crate) fn faces_at_edges(n_edges: usize, loops: &Cells, face_loops: &[u32]) -> (Vec<u32>, Vec<u32>) {
     let n_parts = parallel::n_threads();
     let edges = |part: usize| parallel::part_of(n_edges, part);
+    let faces = Faces { loops, face_loops };
+    let own_faces = |part: usize| parallel::part_of(face_loops.len() - 1, part);
     // Behind the 0, the place of edge i is where its next entry goes within its part; in the end, where they end.
-    let mut offsets = vec![0u32; n_edges + 1];
+    let mut offsets = parallel::zeros(n_edges + 1);
     let parts = parallel::cut(&mut offsets[1..], (0..n_parts).map(|part| edges(part).len()));
+    let counted = parallel::map_each(parts, |part, ends: &mut [u32]| {
+        let (edges, mut others) = (edges(part), vec![Vec::new(); n_parts]);
+        faces.each_half_edge(own_faces(part), |h, face| match place_in(&edges, h) {
+            Some(i) => ends[i] += 1,
+            None => others[parallel::part_with(n_edges, (h / 2) as usize)].push((h, face)),
+        });
+        (ends, others)
+    });
+    let (parts, others): (Vec<_>, Vec<Vec<Vec<(u32, u32)>>>) = counted.into_iter().unzip();
     let counted = parallel::map_each(parts, |part, ends| {
-        let place = place_in(edges(part));
-        loops.indices().iter().filter_map(|&h| place(h)).for_each(|i| ends[i] += 1);
+        let of_others = others.iter().flat_map(|others| &others[part]);
+        of_others.filter_map(|&(h, _)| place_in(&edges(part), h)).for_each(|i| ends[i] += 1);
         let n = ends.iter_mut().fold(0, |n, end| n + std::mem::replace(end, n));
         (ends, n as usize)
     });
     let lengths: Vec<usize> = counted.iter().map(|part| part.1).collect();
-    let mut entries = vec![0; lengths.iter().sum()];
+    let mut entries = parallel::zeros(lengths.iter().sum());
     let mut begin = 0;
     let parts = counted.into_iter().zip(parallel::cut(&mut entries, lengths.into_iter())).map(
         |((ends, n), entries)| {
@@ -77,17 +89,17 @@ pub(crate) fn faces_at_edges(n_edges: usize, loops: &Cells, face_loops: &[u32]) 
         },
     );
     parallel::map_each(parts.collect(), |part, (begin, ends, entries)| {
-        let place = place_in(edges(part));
-        for (range, face) in face_loops.windows(2).zip(0u32..) {
-            let [begin, end] = [range[0], range[1]].map(|l| loops.offsets()[l as usize] as usize);
-            for &h in &loops.indices()[begin..end] {
-                if let Some(i) = place(h) {
-                    let at = &mut ends[i];
-                    entries[*at as usize] = 2 * face + h % 2;
-                    *at += 1;
-                }
+        let edges = edges(part);
+        let mut push = |h: u32, face: u32| {
+            if let Some(i) = place_in(&edges, h) {
+                entries[ends[i] as usize] = 2 * face + h % 2;
+                ends[i] += 1;
             }
-        }
+        };
+        let of = |parts: Range<usize>| others[parts].iter().flat_map(|others| &others[part]);
+        of(0..part).for_each(|&(h, face)| push(h, face));
+        faces.each_half_edge(own_faces(part), &mut push);
+        of(part..n_parts).for_each(|&(h, face)| push(h, face));
         if begin > 0 {
             ends.iter_mut().for_each(|end| *end += begin);
         }
@@ -96,8 +108,27 @@ pub(crate) fn faces_at_edges(n_edges: usize, loops: &Cells, face_loops: &[u32]) 
 }
 
 /// The place of a half-edge's edge among some, if it is one of them.
-fn place_in(edges: Range<usize>) -> impl Fn(u32) -> Option<usize> {
-    move |h| ((h / 2) as usize).checked_sub(edges.start).filter(|&place| place < edges.len())
+fn place_in(edges: &Range<usize>, h: u32) -> Option<usize> {
+    ((h / 2) as usize).checked_sub(edges.start).filter(|&place| place < edges.len())
+}
+
+/// Faces by their loops.
+struct Faces<'a> {
+    loops: &'a Cells,
+    face_loops: &'a [u32],
+}
+
+impl Faces<'_> {
+    /// Calls `f` with the half-edges of some faces, each with its face.
+    fn each_half_edge(&self, faces: Range<usize>, mut f: impl FnMut(u32, u32)) {
+        let begins = self.face_loops[faces.start..=faces.end].iter();
+        let mut begins = begins.map(|&cycle| self.loops.offsets()[cycle as usize] as usize);
+        let mut begin = begins.next().unwrap_or(0);
+        for (end, face) in begins.zip(faces.start as u32..) {
+            self.loops.indices()[begin..end].iter().for_each(|&h| f(h, face));
+            begin = end;
+        }
+    }
 }
 
 fn sort_ring(ring: &mut [u32], edge: u32, skeleton: &Skeleton, geometry: &Geometry) {
@@ -138,10 +169,27 @@ fn opposite(a: u32, b: u32, skeleton: &Skeleton, geometry: &Geometry) -> bool {
     same_way != (a ^ b).is_multiple_of(2)
 }
 
-/// Shell of each face side (2f front, 2f + 1 back), numbered by the first side in them, and their number.
+/// Shell of each face side (2f front, 2f + 1 back), numbered by the first side in them, and their number. Faces that are
+/// alone at an edge, running along it in opposite ways, share their shells in front and behind: such *patches* come first.
 pub(crate) fn shells(rings: &Cells, n_faces: usize) -> (Vec<u32>, u32) {
-    let facing = |edges: Range<usize>| edges.flat_map(|edge| facing_sides(&rings[edge]));
-    UnionFind::of_pairs(2 * n_faces, rings.len(), facing).labels()
+    let beside = |edges: Range<usize>| edges.filter_map(|edge| are_beside(&rings[edge]));
+    let (patch_of, n_patches) = UnionFind::of_pairs(n_faces, rings.len(), beside).labels();
+    let side = |entry: u32| 2 * patch_of[(entry / 2) as usize] + entry % 2;
+    let mut sides = UnionFind::new(2 * n_patches as usize);
+    for edge in parallel::select(rings.len(), |edge| are_beside(&rings[edge as usize]).is_none()) {
+        facing_sides(&rings[edge as usize]).for_each(|(x, y)| _ = sides.union(side(x), side(y)));
+    }
+    let (shell_of, n_shells) = sides.labels();
+    let of_face = |face: usize| [0, 1].map(|s| shell_of[(2 * patch_of[face] + s) as usize]);
+    (parallel::map_light(n_faces, of_face).into_flattened(), n_shells)
+}
+
+/// The faces at an edge, if there are two that run along it in opposite ways.
+fn are_beside(ring: &[u32]) -> Option<(u32, u32)> {
+    match *ring {
+        [a, b] if a % 2 != b % 2 => Some((a / 2, b / 2)),
+        _ => None,
+    }
 }
 
 /// The pairs of sides that face each other around an edge.
@@ -150,12 +198,10 @@ fn facing_sides(ring: &[u32]) -> impl Iterator<Item = (u32, u32)> + '_ {
     ring.iter().scan(last, |before, &next| before.replace(next).map(|entry| (entry, next ^ 1)))
 }
 
-/// Component of each shell, and their number. Faces that share an edge share a shell, so components of faces connected
-/// through edges are those of shells connected through faces.
-pub(crate) fn components(shell_of_side: &[u32], n_shells: u32) -> (Vec<u32>, u32) {
+/// Component of each shell, and their number: shells of some faces' sides are of one. Faces that share an edge share a shell, so
+/// components of faces connected through edges are those of shells connected through faces.
+pub(crate) fn components(sides: impl Iterator<Item = [u32; 2]>, n_shells: u32) -> (Vec<u32>, u32) {
     let mut shells = UnionFind::new(n_shells as usize);
-    for sides in shell_of_side.as_chunks::<2>().0 {
-        shells.union(sides[0], sides[1]);
-    }
+    sides.for_each(|[front, back]| _ = shells.union(front, back));
     shells.labels()
 }

@@ -99,6 +99,17 @@ impl Cells {
         self.offsets.push(offset(self.indices.len()));
     }
 
+    /// Appends all cells of another list.
+    ///
+    /// # Panics
+    /// When the cells would hold 2^32 indices or more.
+    pub fn append(&mut self, other: &Self) {
+        let base = offset(self.indices.len());
+        offset(self.indices.len() + other.indices.len());
+        self.indices.extend_from_slice(&other.indices);
+        self.offsets.extend(other.offsets[1..].iter().map(|end| base + end));
+    }
+
     /// The cells one after the other.
     #[inline]
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &[u32]> + DoubleEndedIterator + Clone + '_ {
