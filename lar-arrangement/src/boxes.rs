@@ -178,25 +178,30 @@ fn along_curve<const D: usize>(
 
 /// Items in the given order, but each group where its first item is, and the places that they had, by item; the
 /// latter empty when there are no groups. O(n).
-fn side_by_side(items: &[u32], group_of: impl Fn(u32) -> u32) -> (Vec<u32>, Vec<u32>) {
-    let groups = items.iter().map(|&item| group_of(item)).filter(|&group| group != NO_GROUP);
-    let Some(last) = groups.max() else { return (items.to_vec(), Vec::new()) };
-    let mut place_of_group = vec![None; last as usize + 1];
-    let (mut places, mut n) = (Vec::with_capacity(items.len()), 0);
-    for &item in items {
-        let known = match group_of(item) {
-            NO_GROUP => &mut None,
-            group => &mut place_of_group[group as usize],
-        };
-        let place = *known.get_or_insert(n);
-        n += u32::from(place == n);
-        places.push(place);
-    }
-    let mut ranks = vec![0; items.len()];
-    items.iter().zip(0..).for_each(|(&item, rank)| ranks[item as usize] = rank);
-    let order: Vec<u32> = (0..items.len() as u32).collect();
-    let (_, order) = sorted_by_place(n as usize, &order, |&i| places[i as usize] as usize);
-    (order.into_iter().map(|i| items[i as usize]).collect(), ranks)
+fn side_by_side(items: &[u32], group_of: impl Fn(u32) -> u32 + Sync + Send) -> (Vec<u32>, Vec<u32>) {
+    let groups = parallel::fill(items.len(), |i| group_of(items[i]));
+    let Some(&last) = groups.iter().filter(|&&group| group != NO_GROUP).max() else {
+        return (items.to_vec(), Vec::new());
+    };
+    let ranks = || {
+        let mut ranks = vec![0; items.len()];
+        items.iter().zip(0..).for_each(|(&item, rank)| ranks[item as usize] = rank);
+        ranks
+    };
+    let layout = || {
+        let mut place_of_group = vec![None; last as usize + 1];
+        let mut n = 0;
+        let placed = items.iter().zip(&groups).map(|(&item, &group)| {
+            let known = if group == NO_GROUP { &mut None } else { &mut place_of_group[group as usize] };
+            let place = *known.get_or_insert(n);
+            n += u32::from(place == n);
+            (place, item)
+        });
+        let placed: Vec<(u32, u32)> = placed.collect();
+        let (_, sorted) = sorted_by_place(n as usize, &placed, |placed| placed.0 as usize);
+        parallel::fill(sorted.len(), |i| sorted[i].1)
+    };
+    parallel::join(layout, ranks)
 }
 
 /// A node: its level, and its number there.

@@ -40,6 +40,8 @@ const NOWHERE: u8 = 6;
 pub(crate) struct Charts {
     /// The chart of each facet, or `NO_GROUP`.
     of_facet: Vec<u32>,
+    /// The facets in no chart, ascending.
+    pub without: Vec<u32>,
     /// Directed edges of the charts' boundaries by chart: those on both sides of which there is not the same one.
     boundaries: Vec<Vec<[u32; 2]>>,
 }
@@ -65,17 +67,18 @@ impl Charts {
                 Outline { geometry: &soup.geometry, look: axes[chart], margin, edges: &boundaries[chart] };
             outline.is_once_around(&quiet)
         })?;
-        for chart in &mut of_facet {
-            if *chart != NO_GROUP && !holds[*chart as usize] {
-                *chart = NO_GROUP;
-            }
-        }
-        Ok(Self { of_facet, boundaries })
+        parallel::each_chunk(&mut of_facet, |_, charts| {
+            let is_none = |chart: &&mut u32| **chart != NO_GROUP && !holds[**chart as usize];
+            charts.iter_mut().filter(is_none).for_each(|chart| *chart = NO_GROUP);
+        });
+        let without = parallel::select(n, |f| of_facet[f as usize] == NO_GROUP);
+        Ok(Self { of_facet, without, boundaries })
     }
 
     /// No chart.
     pub(crate) fn none(n_facets: usize) -> Self {
-        Self { of_facet: vec![NO_GROUP; n_facets], boundaries: Vec::new() }
+        let without = (0..n_facets as u32).collect();
+        Self { of_facet: vec![NO_GROUP; n_facets], without, boundaries: Vec::new() }
     }
 
     /// The chart of a facet, or `NO_GROUP`.
@@ -86,11 +89,6 @@ impl Charts {
     /// Whether both facets are in one chart.
     pub(crate) fn are_one(&self, f: u32, g: u32) -> bool {
         self.of(f) != NO_GROUP && self.of(f) == self.of(g)
-    }
-
-    /// The facets in no chart.
-    pub(crate) fn without(&self) -> impl Iterator<Item = u32> + '_ {
-        (0..).zip(&self.of_facet).filter(|(_, chart)| **chart == NO_GROUP).map(|(f, _)| f)
     }
 
     /// Ends of edges between charts, or between one and other facets.

@@ -39,7 +39,7 @@ const LARGE: u32 = u32::MAX;
 /// `None` when they are not worth to be told from the others. O(n).
 pub(crate) fn facets(soup: &Soup, charts: &Charts, reach: f64, all: &Aabb) -> Option<Vec<u32>> {
     let n = soup.n_facets();
-    if n < FEW || 4 * charts.without().count() > n {
+    if n < FEW || 4 * charts.without.len() > n {
         return None;
     }
     let voxels = Voxels::new(soup, all, reach);

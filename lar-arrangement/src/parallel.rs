@@ -168,15 +168,19 @@ pub(crate) fn map_light<R: Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send)
 }
 
 fn map_blocks<const BLOCK: usize, R: Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send) -> Vec<R> {
-    let block = |i: usize| -> [R; BLOCK] {
-        let begin = i * BLOCK;
+    blocks(n, |begin| -> [R; BLOCK] {
         if begin + BLOCK <= n {
             std::array::from_fn(|i| f(begin + i))
         } else {
             std::array::from_fn(|i| f((begin + i).min(n - 1)))
         }
-    };
-    let mut all = map_pieces(n.div_ceil(BLOCK), light_piece(n) / BLOCK, block).into_flattened();
+    })
+}
+
+/// n results, those from a multiple of `BLOCK` on at a time; what is behind the last is dropped.
+fn blocks<const BLOCK: usize, R: Send>(n: usize, from: impl Fn(usize) -> [R; BLOCK] + Sync + Send) -> Vec<R> {
+    let blocks = map_pieces(n.div_ceil(BLOCK), light_piece(n) / BLOCK, |i| from(i * BLOCK));
+    let mut all = blocks.into_flattened();
     all.truncate(n);
     all
 }
@@ -194,19 +198,16 @@ pub(crate) fn map_lists<R: Send>(begins: &[u32], f: impl Fn(usize, usize) -> R +
         }
         return all;
     }
-    let block = |block: usize| -> [R; BLOCK] {
-        let mut list = list_of((block * BLOCK).min(n - 1));
+    blocks(n, |begin| -> [R; BLOCK] {
+        let mut list = list_of(begin);
         std::array::from_fn(|i| {
-            let item = (block * BLOCK + i).min(n - 1);
+            let item = (begin + i).min(n - 1);
             while begins[list + 1] as usize <= item {
                 list += 1;
             }
             f(list, item - begins[list] as usize)
         })
-    };
-    let mut all = map_pieces(n.div_ceil(BLOCK), light_piece(n) / BLOCK, block).into_flattened();
-    all.truncate(n);
-    all
+    })
 }
 
 /// As `map_light`, the results behind what a list has already.

@@ -44,7 +44,7 @@ impl Stars {
         if !soup.geometry.is_on_grid() {
             return Self { is_clean };
         }
-        for p in charts.boundary_points().chain(charts.without().flat_map(|f| soup.geometry.base(f))) {
+        for p in charts.boundary_points().chain(charts.without.iter().flat_map(|&f| soup.geometry.base(f))) {
             is_clean[p as usize] = true;
         }
         if !is_clean.contains(&true) {
@@ -54,7 +54,7 @@ impl Stars {
         for edge in parallel::select(soup.edges.len(), is_odd) {
             soup.edges[edge as usize].iter().for_each(|&p| is_clean[p as usize] = false);
         }
-        for facet in charts.without() {
+        for &facet in &charts.without {
             let edges = &soup.facet_edges[facet as usize];
             if edges.len() != 3 {
                 edges.iter().for_each(|&code| is_clean[soup.directed(code)[0] as usize] = false);
@@ -92,7 +92,7 @@ struct Corners {
 
 impl Corners {
     fn new(soup: &Soup, is_wanted: &[bool]) -> Self {
-        let points: Vec<u32> = (0..).zip(is_wanted).filter(|(_, wanted)| **wanted).map(|(p, _)| p).collect();
+        let points = parallel::select(is_wanted.len(), |p| is_wanted[p as usize]);
         let mut number = vec![NOT_WANTED; is_wanted.len()];
         points.iter().zip(0..).for_each(|(&p, i)| number[p as usize] = i);
         let (n_chunks, range) = parallel::chunks(soup.n_facets(), FACETS_A_CHUNK);
@@ -103,7 +103,8 @@ impl Corners {
             });
             corners.filter(|corner| corner.0 != NOT_WANTED).collect::<Vec<_>>()
         });
-        let (offsets, sorted) = sorted_by_place(points.len(), &parts.concat(), |corner| corner.0 as usize);
+        let (offsets, sorted) =
+            sorted_by_place(points.len(), &parallel::concat(&parts), |corner| corner.0 as usize);
         Self { points, offsets, corners: sorted.into_iter().map(|corner| corner.1).collect() }
     }
 
