@@ -179,7 +179,7 @@ fn along_curve<const D: usize>(
 /// Items in the given order, but each group where its first item is, and the places that they had, by item; the
 /// latter empty when there are no groups. O(n).
 fn side_by_side(items: &[u32], group_of: impl Fn(u32) -> u32 + Sync + Send) -> (Vec<u32>, Vec<u32>) {
-    let groups = parallel::fill(items.len(), |i| group_of(items[i]));
+    let groups = parallel::map_light(items.len(), |i| group_of(items[i]));
     let Some(&last) = groups.iter().filter(|&&group| group != NO_GROUP).max() else {
         return (items.to_vec(), Vec::new());
     };
@@ -199,7 +199,7 @@ fn side_by_side(items: &[u32], group_of: impl Fn(u32) -> u32 + Sync + Send) -> (
         });
         let placed: Vec<(u32, u32)> = placed.collect();
         let (_, sorted) = sorted_by_place(n as usize, &placed, |placed| placed.0 as usize);
-        parallel::fill(sorted.len(), |i| sorted[i].1)
+        parallel::map_light(sorted.len(), |i| sorted[i].1)
     };
     parallel::join(layout, ranks)
 }

@@ -154,67 +154,26 @@ fn light_piece(n: usize) -> usize {
     n.div_ceil(PIECES).max(WORTH_A_THREAD)
 }
 
-/// As `map`, for work that takes less time than giving it to a thread. What is last may be done several times.
+/// As `map`, for work that takes less time than giving it to a thread.
 pub(crate) fn map_light<R: Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send) -> Vec<R> {
-    if n <= WORTH_A_THREAD || n_threads() == 1 {
-        return (0..n).map(f).collect();
-    }
-    // So many results are collected at a time: in a loop, not through rayon one by one.
-    match size_of::<R>() {
-        0..=8 => map_blocks::<64, R>(n, f),
-        9..=32 => map_blocks::<16, R>(n, f),
-        _ => map_pieces(n, light_piece(n), f),
-    }
-}
-
-fn map_blocks<const BLOCK: usize, R: Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send) -> Vec<R> {
-    blocks(n, |begin| -> [R; BLOCK] {
-        if begin + BLOCK <= n {
-            std::array::from_fn(|i| f(begin + i))
-        } else {
-            std::array::from_fn(|i| f((begin + i).min(n - 1)))
-        }
-    })
-}
-
-/// n results, those from a multiple of `BLOCK` on at a time; what is behind the last is dropped.
-fn blocks<const BLOCK: usize, R: Send>(n: usize, from: impl Fn(usize) -> [R; BLOCK] + Sync + Send) -> Vec<R> {
-    let blocks = map_pieces(n.div_ceil(BLOCK), light_piece(n) / BLOCK, |i| from(i * BLOCK));
-    let mut all = blocks.into_flattened();
-    all.truncate(n);
-    all
+    map_pieces(n, light_piece(n), f)
 }
 
 /// As `map_light`, for the items of lists: `f(l, i)` for the i-th of list l, which begins at `begins[l]` among all; the
 /// number of all comes last.
 pub(crate) fn map_lists<R: Send>(begins: &[u32], f: impl Fn(usize, usize) -> R + Sync + Send) -> Vec<R> {
-    const BLOCK: usize = 16;
-    let n = begins.last().map_or(0, |&n| n as usize);
-    let list_of = |item: usize| begins.partition_point(|&begin| begin as usize <= item) - 1;
-    if n <= WORTH_A_THREAD || n_threads() == 1 {
-        let mut all = Vec::with_capacity(n);
-        for (l, range) in begins.windows(2).enumerate() {
-            all.extend((0..(range[1] - range[0]) as usize).map(|i| f(l, i)));
-        }
-        return all;
+    let mut all = Vec::with_capacity(begins.last().map_or(0, |&n| n as usize));
+    for (l, range) in begins.windows(2).enumerate() {
+        extend_light(&mut all, (range[1] - range[0]) as usize, |i| f(l, i));
     }
-    blocks(n, |begin| -> [R; BLOCK] {
-        let mut list = list_of(begin);
-        std::array::from_fn(|i| {
-            let item = (begin + i).min(n - 1);
-            while begins[list + 1] as usize <= item {
-                list += 1;
-            }
-            f(list, item - begins[list] as usize)
-        })
-    })
+    all
 }
 
 /// As `map_light`, the results behind what a list has already.
 #[cfg(feature = "rayon")]
 pub(crate) fn extend_light<R: Send>(list: &mut Vec<R>, n: usize, f: impl Fn(usize) -> R + Sync + Send) {
     use rayon::prelude::*;
-    if n <= WORTH_A_THREAD || n_threads() == 1 {
+    if n <= light_piece(n) || n_threads() == 1 {
         list.extend((0..n).map(f));
     } else {
         list.par_extend((0..n).into_par_iter().with_max_len(light_piece(n)).map(f));
@@ -234,11 +193,11 @@ pub(crate) fn unzip_light<A: Send, B: Send>(
     f: impl Fn(usize) -> (A, B) + Sync + Send,
 ) -> (Vec<A>, Vec<B>) {
     use rayon::prelude::*;
-    if n <= WORTH_A_THREAD || n_threads() == 1 {
+    if n <= light_piece(n) || n_threads() == 1 {
         return (0..n).map(f).unzip();
     }
     let (mut a, mut b) = (Vec::new(), Vec::new());
-    (0..n).into_par_iter().map(f).unzip_into_vecs(&mut a, &mut b);
+    (0..n).into_par_iter().with_max_len(light_piece(n)).map(f).unzip_into_vecs(&mut a, &mut b);
     (a, b)
 }
 
@@ -351,15 +310,6 @@ pub(crate) fn atomic_zeros(n: usize) -> Vec<AtomicU32> {
     vec![0; n].into_iter().map(AtomicU32::new).collect()
 }
 
-/// As `map_light`, for plain results: loops over pieces of the memory.
-pub(crate) fn fill<R: Copy + Default + Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send) -> Vec<R> {
-    let mut all = vec![R::default(); n];
-    each_chunk_of(light_piece(n), &mut all, |begin, part| {
-        part.iter_mut().zip(begin..).for_each(|(to, i)| *to = f(i));
-    });
-    all
-}
-
 /// Calls `f` with 0..n in any order.
 pub(crate) fn for_each(n: usize, f: impl Fn(usize) + Sync + Send) {
     // A list of nothing takes no memory.
@@ -368,11 +318,8 @@ pub(crate) fn for_each(n: usize, f: impl Fn(usize) + Sync + Send) {
 
 /// Applies `f` to chunks of some items, each with the place that it begins at.
 pub(crate) fn each_chunk<T: Send>(items: &mut [T], f: impl Fn(usize, &mut [T]) + Sync + Send) {
-    each_chunk_of(1 << 14, items, f);
-}
-
-fn each_chunk_of<T: Send>(size: usize, items: &mut [T], f: impl Fn(usize, &mut [T]) + Sync + Send) {
-    let chunks = (0..).step_by(size).zip(items.chunks_mut(size));
+    const CHUNK: usize = 1 << 14;
+    let chunks = (0..).step_by(CHUNK).zip(items.chunks_mut(CHUNK));
     each(chunks.collect(), |(begin, chunk)| f(begin, chunk));
 }
 

@@ -156,7 +156,7 @@ impl EdgeBits {
             (64 * i..n_edges.min(64 * i + 64))
                 .fold(0, |bits, edge| bits | u64::from(bit(edge)) << (edge % 64))
         };
-        Self(parallel::fill(n_edges.div_ceil(64), word))
+        Self(parallel::map_light(n_edges.div_ceil(64), word))
     }
 
     fn of(&self, edge: u32) -> bool {
@@ -194,7 +194,7 @@ impl Loops {
             part.iter_mut().zip(from).for_each(|(to, &h)| *to = h ^ u32::from(turned.of(h / 2)));
         });
         let face_loops = subdivision.cycles_of_face.offsets();
-        let begins = parallel::fill(face_loops.len(), |face| offsets[face_loops[face] as usize]);
+        let begins = parallel::map_light(face_loops.len(), |face| offsets[face_loops[face] as usize]);
         Self { offsets, half_edges, begins, turned, dangling }
     }
 

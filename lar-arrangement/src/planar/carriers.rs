@@ -46,7 +46,7 @@ impl Carriers {
     /// `points` are the distinct grid points, all in the box `hull`, and `point_of` holds for each point of the drawing
     /// which of them it is. O(n log n).
     pub(crate) fn new(drawing: &Drawing, points: Vec<[i64; 2]>, point_of: &[u32], hull: &Aabb<2>) -> Self {
-        let segments = parallel::fill(drawing.segments.len(), |i| {
+        let segments = parallel::map_light(drawing.segments.len(), |i| {
             Segment::new(drawing.segments[i].map(|p| point_of[p as usize]), &points)
         });
         let lines = Lines::new(&segments, &points);
@@ -54,24 +54,24 @@ impl Carriers {
         let order = z_order(hull, lines.first.len(), |i| {
             Aabb::around(lines.ends[lines.first[i as usize] as usize].map(place))
         });
-        let first = parallel::fill(order.len(), |i| lines.first[order[i] as usize]);
+        let first = parallel::map_light(order.len(), |i| lines.first[order[i] as usize]);
         let number = parallel::atomic_zeros(segments.len());
         parallel::for_each(first.len(), |i| number[first[i] as usize].store(i as u32, Relaxed));
         let number = |input: u32| number[input as usize].load(Relaxed);
-        let ends = parallel::fill(first.len(), |i| lines.ends[first[i] as usize]);
+        let ends = parallel::map_light(first.len(), |i| lines.ends[first[i] as usize]);
         let member = |input: usize| {
             let ends = segments[input].ends;
             let reversed = point_of[drawing.segments[input][0] as usize] != ends[0];
             Member { input: input as u32, carrier: number(lines.of[input]), ends, reversed }
         };
-        let mut members = parallel::fill(segments.len(), member);
+        let mut members = parallel::map_light(segments.len(), member);
         if lines.n_with_length < members.len() {
             members.retain(|member| member.ends[0] != member.ends[1]);
         }
         Self {
-            positions: parallel::fill(ends.len(), |i| ends[i].map(|p| points[p as usize])),
+            positions: parallel::map_light(ends.len(), |i| ends[i].map(|p| points[p as usize])),
             ends,
-            rank: parallel::fill(first.len(), |i| lines.rank[first[i] as usize].load(Relaxed)),
+            rank: parallel::map_light(first.len(), |i| lines.rank[first[i] as usize].load(Relaxed)),
             stops: lines.stops.iter().map(|&(input, p)| (number(input), p)).collect(),
             members,
             points,
@@ -129,8 +129,8 @@ impl Lines {
             (out.lines, out.stops)
         });
         drop(by_slope);
-        let mut of = parallel::fill(n, |i| i as u32);
-        let mut ends = parallel::fill(n, |i| segments[i].ends);
+        let mut of = parallel::map_light(n, |i| i as u32);
+        let mut ends = parallel::map_light(n, |i| segments[i].ends);
         for Line { members, ends: joined } in joined.iter().flat_map(|(lines, _)| lines) {
             ends[members[0] as usize] = *joined;
             members.iter().for_each(|&input| of[input as usize] = members[0]);

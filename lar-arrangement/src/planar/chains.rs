@@ -78,7 +78,7 @@ impl Chains {
     fn find_stretches(&mut self, carriers: &Carriers) {
         let whole = |c: u32| [self.offsets[c as usize], self.offsets[c as usize + 1] - 1];
         let members = &carriers.members;
-        self.stretches = parallel::fill(members.len(), |i| whole(members[i].carrier));
+        self.stretches = parallel::map_light(members.len(), |i| whole(members[i].carrier));
         if members.len() == carriers.ends.len() {
             return;
         }

@@ -71,9 +71,9 @@ impl Edges {
         let first_run = offsets(counts.iter().map(|n| n[1]));
         let (n, n_runs) = (first_edge[n_parts] as usize, first_run[n_parts] as usize);
         let (mut ends, mut run_of) = (vec![[0; 2]; n], vec![0; n]);
-        let mut runs = parallel::fill(n_runs, |_| Run::default());
+        let mut runs = parallel::map_light(n_runs, |_| Run::default());
         let n_places = if n == chains.n_edges() { 0 } else { chains.chain.len() };
-        let mut edge_at = parallel::fill(n_places, |_| NO_EDGE);
+        let mut edge_at = parallel::map_light(n_places, |_| NO_EDGE);
         let n_edges = || counts.iter().map(|n| n[0] as usize);
         let place = |carrier: usize| (chains.offsets[carrier] as usize).min(edge_at.len());
         let n_places: Vec<usize> =

@@ -41,8 +41,8 @@ impl Embedding<'_> {
         };
         let sweep = self.swept(&firsts);
         let first_edge = |i: usize| self.edges.runs[firsts[sweep[i] as usize] as usize].first_edge;
-        let outer = parallel::fill(sweep.len(), |i| cycles.of[2 * first_edge(i) as usize]);
-        let around = parallel::fill(sweep.len(), |i| around[sweep[i] as usize]);
+        let outer = parallel::map_light(sweep.len(), |i| cycles.of[2 * first_edge(i) as usize]);
+        let around = parallel::map_light(sweep.len(), |i| around[sweep[i] as usize]);
         Ok(Subdivision::nested(cycles, &outer, &around))
     }
 
@@ -51,7 +51,7 @@ impl Embedding<'_> {
         const NUMBER: u32 = 31;
         let strip = |x: f64| ((x + 2f64.powi(BITS)) * 2f64.powi(31 - BITS)) as u32;
         let numbers =
-            parallel::fill(runs.len(), |i| u64::from(strip(self.start_x(runs[i]))) << NUMBER | i as u64);
+            parallel::map_light(runs.len(), |i| u64::from(strip(self.start_x(runs[i]))) << NUMBER | i as u64);
         let run = |x: u64| runs[(x as u32 & (u32::MAX >> 1)) as usize];
         let settle = |sorted: &mut [u64]| {
             for same in sorted.chunk_by_mut(|a, b| a >> NUMBER == b >> NUMBER).filter(|same| same.len() > 1) {
@@ -59,7 +59,7 @@ impl Embedding<'_> {
             }
         };
         let sorted = sorted_numbers(&numbers, 32 + NUMBER, settle);
-        parallel::fill(sorted.len(), |i| sorted[i] as u32 & (u32::MAX >> 1))
+        parallel::map_light(sorted.len(), |i| sorted[i] as u32 & (u32::MAX >> 1))
     }
 
     /// The rounded x of the vertex that a run begins at.
@@ -73,7 +73,7 @@ impl Embedding<'_> {
         let n = component_of.iter().max().map_or(0, |&c| c as usize + 1);
         let mut firsts: Vec<Option<u32>> = vec![None; n];
         // Looked up by all threads before. Rounding does not change the order of what it leaves different.
-        let x = parallel::fill(component_of.len(), |run| self.start_x(run as u32) as f32);
+        let x = parallel::map_light(component_of.len(), |run| self.start_x(run as u32) as f32);
         for (&c, run) in component_of.iter().zip(0..) {
             let best = &mut firsts[c as usize];
             if best.is_none_or(|b| x[run as usize] <= x[b as usize] && self.cmp_starts(run, b).is_lt()) {

@@ -164,6 +164,6 @@ impl<'a> Numbering<'a> {
         parallel::each(self.parts.iter().zip(chains).collect(), |(part, chain)| {
             chain.iter_mut().zip(&part.chain).for_each(|(to, &v)| *to = number(v & !FIRST));
         });
-        out.vertex_of_point = parallel::fill(self.n_points as usize, |p| number(p as u32));
+        out.vertex_of_point = parallel::map_light(self.n_points as usize, |p| number(p as u32));
     }
 }

@@ -28,7 +28,7 @@ pub(crate) fn unify(
         firsts.keep(&mut points);
     }
     if begun.n < n {
-        number = parallel::fill(n, |i| number[begun.number(i as u32) as usize]);
+        number = parallel::map_light(n, |i| number[begun.number(i as u32) as usize]);
     }
     (points, number)
 }
@@ -46,7 +46,7 @@ impl Marks {
         let word = |w: usize| {
             (64 * w..n.min(64 * w + 64)).fold(0, |bits, i| bits | u64::from(is_marked(i)) << (i % 64))
         };
-        let bits = parallel::fill(n.div_ceil(64), word);
+        let bits = parallel::map_light(n.div_ceil(64), word);
         let mut before = offsets(bits.iter().map(|bits| bits.count_ones()));
         let n = before.pop().map_or(0, |n| n as usize);
         Self { bits, before, n }

@@ -10,7 +10,7 @@ use crate::planar::faces::exact_crossing;
 
 /// Correctly rounded positions in grid steps.
 pub(crate) fn positions(carriers: &Carriers, chains: &Chains) -> Vec<[f64; 2]> {
-    parallel::fill(chains.vertices.len(), |v| match chains.source(v as u32) {
+    parallel::map_light(chains.vertices.len(), |v| match chains.source(v as u32) {
         VertexSource::Point(p) => carriers.points[p as usize].map(|x| x as f64),
         VertexSource::Crossing([s, t]) => {
             let (num, den) = parameter(carriers, s, t);
@@ -35,7 +35,7 @@ pub(crate) fn lengths(
 ) -> Vec<[f64; 2]> {
     let offset = grid.offset();
     if offset != [0; 3] {
-        positions = parallel::fill(positions.len(), |v| match chains.source(v as u32) {
+        positions = parallel::map_light(positions.len(), |v| match chains.source(v as u32) {
             VertexSource::Point(p) => {
                 [0, 1].map(|k| (i128::from(carriers.points[p as usize][k]) + offset[k]) as f64)
             }

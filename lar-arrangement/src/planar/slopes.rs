@@ -73,7 +73,7 @@ pub(super) const IN_LINE: u64 = 1 << 61;
 impl<'a> BySlope<'a> {
     pub(super) fn new(segments: &'a [Segment], points: &'a [[i64; 2]]) -> Self {
         let mut out = Self { segments, points, sorted: Vec::new() };
-        let numbers = parallel::fill(segments.len(), |i| sector(segments[i].slope) << NUMBER | i as u64);
+        let numbers = parallel::map_light(segments.len(), |i| sector(segments[i].slope) << NUMBER | i as u64);
         let settle = |sorted: &mut [u64]| {
             let same_sector = |a: &u64, b: &u64| a >> NUMBER == b >> NUMBER;
             sorted.chunk_by_mut(same_sector).filter(|same| same.len() > 1).for_each(|same| out.settle(same));
