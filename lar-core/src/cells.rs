@@ -99,7 +99,14 @@ impl Cells {
         self.offsets.push(offset(self.indices.len()));
     }
 
-    /// Appends all cells of another list.
+    /// Appends all cells of another list. O(their size).
+    ///
+    /// ```
+    /// use lar_core::Cells;
+    /// let mut cells = Cells::uniform(2, vec![0, 1, 1, 2]);
+    /// cells.append(&Cells::uniform(3, vec![0, 1, 2]));
+    /// assert_eq!((cells.len(), &cells[2]), (3, &[0, 1, 2][..]));
+    /// ```
     ///
     /// # Panics
     /// When the cells would hold 2^32 indices or more.
