@@ -72,7 +72,7 @@ pub(crate) fn faces_at_edges(n_edges: usize, loops: &Cells, face_loops: &[u32]) 
         });
         (ends, others)
     });
-    let (parts, others): (Vec<_>, Vec<Vec<Vec<(u32, u32)>>>) = counted.into_iter().unzip();
+    let (parts, others): (Vec<_>, Vec<_>) = counted.into_iter().unzip();
     let counted = parallel::map_each(parts, |part, ends| {
         let of_others = others.iter().flat_map(|others| &others[part]);
         of_others.filter_map(|&(h, _)| place_in(&edges(part), h)).for_each(|i| ends[i] += 1);
