@@ -148,10 +148,11 @@ impl Arrangement {
     /// What a vertex is by definition.
     #[must_use]
     pub fn vertex_kind(&self, vertex: VertexId) -> VertexKind {
-        match self.vertices[vertex.index()].def {
+        let vertex = &self.vertices[vertex.index()];
+        match vertex.def {
             VertexDef::Point(_) => VertexKind::Input,
-            VertexDef::EdgePlane { .. } => VertexKind::EdgeCrossing,
-            VertexDef::Facets(_) => VertexKind::PlaneCrossing,
+            _ if vertex.is_on_edge => VertexKind::EdgeCrossing,
+            _ => VertexKind::PlaneCrossing,
         }
     }
 

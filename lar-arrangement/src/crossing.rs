@@ -11,7 +11,7 @@
 //!  F ∩ G   ──────●═══●───────●═══●──
 //! ```
 
-use crate::kernel::{Along, Direction, Geometry, Sign, Support, Vertex, VertexDef};
+use crate::kernel::{Along, Direction, Geometry, Sign, Vertex, VertexDef};
 use crate::soup::Soup;
 use rustc_hash::FxHashMap;
 use std::cell::OnceCell;
@@ -41,6 +41,8 @@ pub(crate) struct Contacts {
     pub coplanar: Vec<[u32; 2]>,
     /// Pairs that have a point in common beyond shared corners and edges.
     pub crossing_pairs: u64,
+    /// The vertices on edges by their definitions: those of an edge come with both its facets.
+    known: FxHashMap<VertexDef, VertexRef>,
 }
 
 impl Contacts {
@@ -56,21 +58,18 @@ impl Contacts {
         self.crossing_pairs += other.crossing_pairs;
     }
 
-    fn vertex_ref(&mut self, vertex: &Vertex, n_points: u32) -> VertexRef {
-        match vertex.def {
-            VertexDef::Point(p) => p,
-            _ => {
-                self.vertices.push(*vertex);
-                n_points + self.vertices.len() as u32 - 1
-            }
-        }
-    }
-
-    /// A point strictly inside an edge.
-    pub(crate) fn push_split(&mut self, edge: u32, vertex: &Vertex, n_points: u32) -> VertexRef {
-        let v = self.vertex_ref(vertex, n_points);
-        self.splits.push((edge, v));
-        v
+    /// A vertex on an edge by its definition, and how it is made when it is new.
+    pub(crate) fn edge_vertex(
+        &mut self,
+        geometry: &Geometry,
+        def: VertexDef,
+        vertex: impl FnOnce(VertexDef) -> Vertex,
+    ) -> VertexRef {
+        let next = (geometry.n_points() + self.vertices.len()) as u32;
+        *self.known.entry(def).or_insert_with(|| {
+            self.vertices.push(vertex(def));
+            next
+        })
     }
 }
 
@@ -83,12 +82,14 @@ enum Gap {
 }
 
 /// What a stop is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Site {
-    /// A corner.
     Corner(u32),
     /// Where an edge passes through the plane of the other facet.
-    Inside { edge: u32, facet: u32 },
+    Inside {
+        edge: u32,
+        facet: u32,
+    },
 }
 
 /// A point of a facet's boundary on ℓ.
@@ -118,13 +119,15 @@ impl Stop {
         Self { site, at, error, vertex: OnceCell::new(), toggles: [true, true], gap: Gap::Outside }
     }
 
+    fn definition(&self, soup: &Soup) -> VertexDef {
+        match self.site {
+            Site::Corner(p) => VertexDef::Point(p),
+            Site::Inside { edge, facet } => soup.geometry.edge_definition(soup.edges[edge as usize], facet),
+        }
+    }
+
     fn vertex(&self, soup: &Soup) -> &Vertex {
-        self.vertex.get_or_init(|| match self.site {
-            Site::Corner(p) => soup.geometry.point_vertex(p),
-            Site::Inside { edge, facet } => {
-                soup.geometry.edge_vertex(soup.edges[edge as usize], Support::Facet(facet))
-            }
-        })
+        self.vertex.get_or_init(|| soup.geometry.vertex_on_edge(self.definition(soup)))
     }
 
     /// Order along `axis`, exactly.
@@ -132,24 +135,23 @@ impl Stop {
         if (self.at - other.at).abs() > self.error + other.error {
             return self.at.total_cmp(&other.at);
         }
+        if self.definition(soup) == other.definition(soup) {
+            return Ordering::Equal;
+        }
         soup.geometry.cmp_coordinate(self.vertex(soup), other.vertex(soup), axis)
     }
 }
 
-/// Buffers for the pairs of one chunk, and the vertices found in it: those of an edge come with both its facets.
+/// Buffers for the pairs of one chunk.
 #[derive(Default)]
 pub(crate) struct Scratch {
     signs: [Vec<Sign>; 2],
     traces: [Vec<Stop>; 2],
     on_line: Vec<(u32, [u32; 2])>,
-    known: FxHashMap<Site, VertexRef>,
 }
 
 /// Finds what facets f and g have in common.
 pub(crate) fn meet(soup: &Soup, f: u32, g: u32, scratch: &mut Scratch, out: &mut Contacts) {
-    if are_triangles_apart(soup, f, g) {
-        return;
-    }
     let [signs_f, signs_g] = &mut scratch.signs;
     match classify(soup, f, g, signs_f) {
         Position::Apart => return,
@@ -160,64 +162,77 @@ pub(crate) fn meet(soup: &Soup, f: u32, g: u32, scratch: &mut Scratch, out: &mut
         return;
     }
     let geometry = &soup.geometry;
-    let line = geometry.direction(Along::Facets([f, g]));
-    let (axis, _) = geometry.axis_of(&line);
+    let axis = geometry.axis_of_line([f, g]);
     for (i, (this, other)) in [(f, g), (g, f)].into_iter().enumerate() {
-        trace(soup, this, other, axis, &scratch.signs[i], &mut scratch.on_line, &mut scratch.traces[i]);
-    }
-    overlay(soup, [f, g], axis, &scratch.traces, &mut scratch.known, out);
-}
-
-/// For two triangles: whether one of them shows at once that they have nothing in common but shared corners and a
-/// shared edge. Most pairs end here.
-fn are_triangles_apart(soup: &Soup, f: u32, g: u32) -> bool {
-    if soup.facet_edges[f as usize].len() != 3 || soup.facet_edges[g as usize].len() != 3 {
-        return false;
-    }
-    let geometry = &soup.geometry;
-    let (a, b) = (geometry.base(f), geometry.base(g));
-    is_on_one_side(geometry, a, b, g) || is_on_one_side(geometry, b, a, f)
-}
-
-/// Whether the corners that are not shared lie strictly on one side of the other triangle's plane.
-fn is_on_one_side(geometry: &Geometry, corners: [u32; 3], others: [u32; 3], other: u32) -> bool {
-    let mut side = Sign::Zero;
-    for p in corners.into_iter().filter(|p| !others.contains(p)) {
-        let sign = geometry.side_of_point(p, other);
-        if sign == Sign::Zero || sign.times(side) == Sign::Negative {
-            return false;
+        let (signs, stops) = (&scratch.signs[i], &mut scratch.traces[i]);
+        match signs[..] {
+            [a, b, c] => trace_triangle(soup, this, other, axis, [a, b, c], stops),
+            _ => trace(soup, this, other, axis, signs, &mut scratch.on_line, stops),
         }
-        side = sign;
     }
-    side != Sign::Zero
+    overlay(soup, [f, g], axis, &scratch.traces, out);
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Position {
-    /// All corners on one side.
+    /// All corners on one side; for triangles, but for corners that they share: then they have nothing else in common but
+    /// a shared edge.
     Apart,
     Coplanar,
     /// The facet reaches the other's plane.
     Across,
 }
 
-/// Signs of f's corners (tails of its directed edges) against the plane of g. Triangles that have only shared corners
-/// on it do not come here.
+/// Signs of f's corners (tails of its directed edges) against the plane of g. Most pairs end here.
 fn classify(soup: &Soup, f: u32, g: u32, signs: &mut Vec<Sign>) -> Position {
     signs.clear();
+    let geometry = &soup.geometry;
     let edges = &soup.facet_edges[f as usize];
+    let of_g = geometry.base(g);
+    let plane = geometry.seen_from(g);
+    let are_triangles = edges.len() == 3 && soup.facet_edges[g as usize].len() == 3;
     let mut any = [false; 3];
-    for &edge in edges {
-        let [p, _] = soup.directed(edge);
-        let is_on_plane = soup.geometry.lies_on(p, g);
-        let sign = if is_on_plane { Sign::Zero } else { soup.geometry.side_of_point(p, g) };
-        any[(sign as i8 + 1) as usize] = true;
+    let mut push = |p: u32| {
+        let is_shared = of_g.contains(&p);
+        let sign = if is_shared { Sign::Zero } else { plane.side_of_point(p) };
+        any[(sign as i8 + 1) as usize] |= !(are_triangles && is_shared);
         signs.push(sign);
+    };
+    match edges {
+        [_, _, _] => geometry.base(f).into_iter().for_each(push),
+        edges => edges.iter().for_each(|&edge| push(soup.directed(edge)[0])),
     }
     match any {
         [false, _, false] => Position::Coplanar,
         [true, false, false] | [false, false, true] => Position::Apart,
         _ => Position::Across,
+    }
+}
+
+/// The stops of a triangle on the plane of g, sorted along `axis`: one or two. Its corners are those of its base.
+fn trace_triangle(soup: &Soup, f: u32, g: u32, axis: usize, signs: [Sign; 3], stops: &mut Vec<Stop>) {
+    let geometry = &soup.geometry;
+    stops.clear();
+    let mut gap = Gap::Inside;
+    for (k, &code) in soup.facet_edges[f as usize].iter().enumerate() {
+        match (signs[k], signs[(k + 1) % 3]) {
+            (Sign::Zero, next) => {
+                stops.push(Stop::corner(geometry, geometry.base(f)[k], axis, [false; 2]));
+                if next == Sign::Zero {
+                    gap = Gap::Along(code / 2);
+                }
+            }
+            (here, next) if here.times(next) == Sign::Negative => {
+                stops.push(Stop::inside(soup, code / 2, g, axis));
+            }
+            _ => {}
+        }
+    }
+    if let [a, b] = &mut stops[..] {
+        if b.cmp(a, soup, axis).is_lt() {
+            std::mem::swap(a, b);
+        }
+        a.gap = gap;
     }
 }
 
@@ -235,18 +250,9 @@ fn trace(
     stops.clear();
     on_line.clear();
     let edges = &soup.facet_edges[f as usize];
-    let sign_at = |p: u32| {
-        // Loops close within the facet's list: the corner's sign stands at the edge that starts there.
-        let at = edges.iter().position(|&e| soup.directed(e)[0] == p).expect("loops are closed");
-        signs[at]
-    };
     for (i, &edge) in edges.iter().enumerate() {
         let [p, q] = soup.directed(edge);
-        let next = edges
-            .get(i + 1)
-            .filter(|&&e| soup.directed(e)[0] == q)
-            .map_or_else(|| sign_at(q), |_| signs[i + 1]);
-        match (signs[i], next) {
+        match (signs[i], signs[soup.next_in_loop(edges, i)]) {
             (Sign::Zero, Sign::Zero) => {
                 on_line.push((edge / 2, [p, q]));
                 push_corner(geometry, stops, p, axis, [false, false]);
@@ -332,14 +338,7 @@ impl Place {
 }
 
 /// Lays two traces over each other and records the common points and segments.
-fn overlay(
-    soup: &Soup,
-    facets: [u32; 2],
-    axis: usize,
-    traces: &[Vec<Stop>; 2],
-    known: &mut FxHashMap<Site, VertexRef>,
-    out: &mut Contacts,
-) {
+fn overlay(soup: &Soup, facets: [u32; 2], axis: usize, traces: &[Vec<Stop>; 2], out: &mut Contacts) {
     let [mut i, mut j] = [0, 0];
     let mut gaps = [Gap::Outside; 2];
     let mut previous: Option<VertexRef> = None;
@@ -364,7 +363,7 @@ fn overlay(
         j += usize::from(stops[1].is_some());
         let here = places.iter().all(|&p| p != Place::Outside).then(|| {
             any |= places != [Place::Corner; 2];
-            let v = vertex_at(soup, stops, known, out);
+            let v = vertex_at(soup, stops, out);
             record_contact(v, places, [before, gaps], facets, out);
             v
         });
@@ -379,23 +378,14 @@ fn overlay(
 }
 
 /// The vertex of one or two stops in the same place; a corner, if one of them is.
-fn vertex_at(
-    soup: &Soup,
-    stops: [Option<&Stop>; 2],
-    known: &mut FxHashMap<Site, VertexRef>,
-    out: &mut Contacts,
-) -> VertexRef {
-    let corner = stops.iter().flatten().find(|s| matches!(s.site, Site::Corner(_)));
+fn vertex_at(soup: &Soup, stops: [Option<&Stop>; 2], out: &mut Contacts) -> VertexRef {
+    let corner = stops.iter().flatten().find(|stop| matches!(stop.site, Site::Corner(_)));
     let stop = corner
         .or_else(|| stops.iter().flatten().next())
         .expect("every point of the overlay is a stop of one trace");
-    match stop.site {
-        Site::Corner(p) => p,
-        Site::Inside { edge, facet } => {
-            let site = Site::Inside { edge, facet: soup.geometry.first_in_plane(facet) };
-            let n_points = soup.geometry.n_points() as u32;
-            *known.entry(site).or_insert_with(|| out.vertex_ref(stop.vertex(soup), n_points))
-        }
+    match stop.definition(soup) {
+        VertexDef::Point(p) => p,
+        def => out.edge_vertex(&soup.geometry, def, |_| *stop.vertex(soup)),
     }
 }
 

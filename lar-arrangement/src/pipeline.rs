@@ -4,7 +4,7 @@ use crate::arrangement::Arrangement;
 use crate::assemble::{Operators, Shells, assemble};
 use crate::canonical::{self, Report, Scan};
 use crate::check;
-use crate::coplanar;
+use crate::coplanar::{self, Overlay};
 use crate::crossing::{self, Contacts, Scratch};
 use crate::dissolve::{self, Dissolved};
 use crate::error::ArrangementError;
@@ -357,12 +357,19 @@ fn contacts(soup: &Soup, pairs: &[[u32; 2]], course: &Course) -> Result<Contacts
 
 /// The sets of facets that overlap in one plane.
 fn overlapping(soup: &Soup, contacts: &mut Contacts, course: &Course) -> Result<UnionFind, Cancelled> {
+    let pairs = std::mem::take(&mut contacts.coplanar);
+    let (n_chunks, range) = parallel::chunks(pairs.len(), PAIRS_A_CHUNK);
+    let parts = course.map(n_chunks, |chunk| {
+        let (mut out, mut overlay) = (Contacts::default(), Overlay::default());
+        let overlapping =
+            pairs[range(chunk)].iter().filter(|pair| coplanar::meet(soup, **pair, &mut overlay, &mut out));
+        let overlapping: Vec<[u32; 2]> = overlapping.copied().collect();
+        (overlapping, out)
+    })?;
     let mut sets = UnionFind::new(soup.n_facets());
-    for pair in std::mem::take(&mut contacts.coplanar) {
-        course.go_on()?;
-        if coplanar::meet(soup, pair, contacts) {
-            sets.union(pair[0], pair[1]);
-        }
+    for (overlapping, part) in parts {
+        contacts.append(part, soup.geometry.n_points() as u32);
+        overlapping.into_iter().for_each(|[f, g]| _ = sets.union(f, g));
     }
     Ok(sets)
 }

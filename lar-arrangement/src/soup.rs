@@ -223,6 +223,19 @@ impl Soup {
         self.facet_edges.indices().len() == 3 * self.n_facets()
     }
 
+    /// Where in a facet's list the edge stands that goes on where edge i ends.
+    pub(crate) fn next_in_loop(&self, edges: &[u32], i: usize) -> usize {
+        if edges.len() == 3 {
+            return (i + 1) % 3;
+        }
+        let [_, head] = self.directed(edges[i]);
+        let starts_there = |&e: &u32| self.directed(e)[0] == head;
+        if edges.get(i + 1).is_some_and(starts_there) {
+            return i + 1;
+        }
+        edges.iter().position(starts_there).expect("loops close within the facet's list")
+    }
+
     /// First and last point of a directed edge.
     pub(crate) fn directed(&self, edge: u32) -> [u32; 2] {
         let [a, b] = self.edges[(edge / 2) as usize];

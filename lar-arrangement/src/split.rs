@@ -93,10 +93,10 @@ impl Cuts {
     }
 }
 
-/// Where each of 0..n begins in a sorted list of them.
-pub(crate) fn offsets(n: usize, sorted: impl Iterator<Item = u32>) -> Vec<u32> {
+/// Where each of 0..n begins in a list of some of them once it is sorted.
+pub(crate) fn offsets(n: usize, list: impl Iterator<Item = u32>) -> Vec<u32> {
     let mut offsets = vec![0; n + 1];
-    for x in sorted {
+    for x in list {
         offsets[x as usize + 1] += 1;
     }
     for i in 0..n {

@@ -40,7 +40,8 @@ struct Search<'a> {
     input: &'a Input<'a>,
     /// The facets of polygon p, which follow each other, are `first_facet[p]..first_facet[p + 1]`.
     first_facet: Vec<u32>,
-    neighbours: Neighbours,
+    /// The polygons that lie nearly in one plane with each polygon.
+    neighbours: Lists,
 }
 
 /// The clusters of more than one triangle, with what touches them and their canonical planes.
@@ -52,7 +53,7 @@ pub(super) fn clusters(input: &Input, scan: &Scan) -> Vec<Cluster> {
     adjacent.dedup();
     let n_polygons = input.soup.polygon_flat.len();
     let first_facet = offsets(n_polygons, input.soup.facet_polygon.iter().copied());
-    let search = Search { input, first_facet, neighbours: Neighbours::new(n_polygons, &adjacent) };
+    let search = Search { input, first_facet, neighbours: Lists::of_pairs(n_polygons, &adjacent) };
     let mut clusters = search.clusters(&adjacent);
     if !clusters.is_empty() {
         search.add_touching_corners(&mut clusters);
@@ -201,58 +202,43 @@ impl Search<'_> {
         }
     }
 
-    /// The same for facets that share a corner with a facet of a cluster. O(facets · clusters at a point).
-    fn add_touching_neighbours(
-        &self,
-        clusters: &[Cluster],
-        cluster_of: impl Fn(u32) -> Option<u32>,
-        touching: &mut Vec<(u32, u32)>,
-    ) {
-        let mut at_point: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
-        for (cluster, id) in clusters.iter().zip(0..) {
-            cluster.corners.iter().for_each(|&p| at_point.entry(p).or_default().push(id));
-        }
-        if at_point.is_empty() {
-            return;
-        }
-        for facet in 0..self.input.soup.n_facets() as u32 {
-            for p in self.input.corners(facet) {
-                let others =
-                    at_point.get(&p).into_iter().flatten().filter(|&&id| cluster_of(facet) != Some(id));
-                for &id in others {
-                    let cluster = &clusters[id as usize];
-                    let near = |&q: &u32| cluster.fit.distance(self.geometry(), q) <= cluster.tolerance;
-                    touching.extend(self.input.corners(facet).filter(near).map(|q| (id, q)));
+    /// Gives the clusters the corners of other facets that lie on them or nearly so: a corner that rests on a face. These
+    /// facets are in a pair with one of the cluster, or have a corner in common with it. O(pairs + facets · clusters at a
+    /// point).
+    fn add_touching_corners(&self, clusters: &mut [Cluster]) {
+        let (n_facets, n_points) = (self.input.soup.n_facets(), self.geometry().n_points());
+        let paired = Lists::of_pairs(n_facets, self.input.pairs);
+        let at_corner = self.facets_at_corners(clusters);
+        // The last cluster that a facet and a point were looked at for.
+        let (mut facet_seen, mut point_seen) = (vec![u32::MAX; n_facets], vec![u32::MAX; n_points]);
+        for (cluster, id) in clusters.iter_mut().zip(0..) {
+            let own = cluster.polygons.iter().flat_map(|&polygon| self.facets(polygon));
+            own.clone().for_each(|f| facet_seen[f as usize] = id);
+            cluster.corners.iter().for_each(|&p| point_seen[p as usize] = id);
+            let others = own.flat_map(|f| paired.of(f));
+            for &facet in others.chain(cluster.corners.iter().flat_map(|&p| at_corner.of(p))) {
+                if std::mem::replace(&mut facet_seen[facet as usize], id) == id {
+                    continue;
                 }
+                let new = self
+                    .input
+                    .corners(facet)
+                    .filter(|&p| std::mem::replace(&mut point_seen[p as usize], id) != id);
+                let near = new.filter(|&p| cluster.fit.is_near(self.geometry(), p, cluster.tolerance));
+                cluster.touching.extend(near);
             }
+            cluster.touching.sort_unstable();
         }
     }
 
-    /// Gives the clusters the corners of other facets that lie on them or nearly so: a corner that rests on a face.
-    fn add_touching_corners(&self, clusters: &mut [Cluster]) {
-        let mut cluster_of = vec![None; self.input.soup.polygon_flat.len()];
-        for (cluster, id) in clusters.iter().zip(0u32..) {
-            cluster.polygons.iter().for_each(|&p| cluster_of[p as usize] = Some(id));
-        }
-        let of_facet = |f: u32| cluster_of[self.input.soup.facet_polygon[f as usize] as usize];
-        let mut touching = Vec::new();
-        for (f, g) in self.input.pairs.iter().flat_map(|&[f, g]| [(f, g), (g, f)]) {
-            let (Some(id), other) = (of_facet(f), of_facet(g)) else { continue };
-            if other != Some(id) {
-                let cluster = &clusters[id as usize];
-                let near = |&p: &u32| cluster.fit.distance(self.geometry(), p) <= cluster.tolerance;
-                touching.extend(self.input.corners(g).filter(near).map(|p| (id, p)));
-            }
-        }
-        self.add_touching_neighbours(clusters, of_facet, &mut touching);
-        touching.sort_unstable();
-        touching.dedup();
-        for (id, p) in touching {
-            let cluster = &mut clusters[id as usize];
-            if cluster.corners.binary_search(&p).is_err() {
-                cluster.touching.push(p);
-            }
-        }
+    /// The facets at each point that is a corner of a cluster.
+    fn facets_at_corners(&self, clusters: &[Cluster]) -> Lists {
+        let n_points = self.geometry().n_points();
+        let mut is_corner = vec![false; n_points];
+        clusters.iter().flat_map(|c| &c.corners).for_each(|&p| is_corner[p as usize] = true);
+        let facets = 0..self.input.soup.n_facets() as u32;
+        let entries = facets.flat_map(|f| self.input.corners(f).map(move |p| (p, f)));
+        Lists::new(n_points, entries.filter(|(p, _)| is_corner[*p as usize]))
     }
 }
 
@@ -270,24 +256,32 @@ pub(super) fn planes_of_faces(soup: &Soup, clusters: &[Cluster]) -> Vec<Vec<Opti
     planes
 }
 
-/// The polygons that lie nearly in one plane with each polygon.
-struct Neighbours {
+/// A list for each of 0..n.
+struct Lists {
     offsets: Vec<u32>,
-    list: Vec<u32>,
+    items: Vec<u32>,
 }
 
-impl Neighbours {
-    fn new(n: usize, pairs: &[[u32; 2]]) -> Self {
-        let mut directed: Vec<[u32; 2]> = pairs.iter().flat_map(|&[a, b]| [[a, b], [b, a]]).collect();
-        directed.sort_unstable();
-        Self {
-            offsets: offsets(n, directed.iter().map(|pair| pair[0])),
-            list: directed.iter().map(|pair| pair[1]).collect(),
+impl Lists {
+    /// Of entries (whose list, item), in their order.
+    fn new(n: usize, entries: impl Iterator<Item = (u32, u32)> + Clone) -> Self {
+        let offsets = offsets(n, entries.clone().map(|entry| entry.0));
+        let mut next = offsets[..n].to_vec();
+        let mut items = vec![0; offsets[n] as usize];
+        for (of, item) in entries {
+            items[next[of as usize] as usize] = item;
+            next[of as usize] += 1;
         }
+        Self { offsets, items }
     }
 
-    fn of(&self, polygon: u32) -> &[u32] {
-        let p = polygon as usize;
-        &self.list[self.offsets[p] as usize..self.offsets[p + 1] as usize]
+    /// The partners of each.
+    fn of_pairs(n: usize, pairs: &[[u32; 2]]) -> Self {
+        Self::new(n, pairs.iter().flat_map(|&[a, b]| [(a, b), (b, a)]))
+    }
+
+    fn of(&self, i: u32) -> &[u32] {
+        let i = i as usize;
+        &self.items[self.offsets[i] as usize..self.offsets[i + 1] as usize]
     }
 }

@@ -10,6 +10,9 @@ const COEFFICIENT: i128 = 1 << 40;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fit {
     pub plane: Plane,
+    /// A point on it, its normal and the length of that, rounded.
+    origin: [f64; 3],
+    normal: [f64; 3],
     length: f64,
     /// How far the farthest of the points lies from it.
     pub deviation: f64,
@@ -36,7 +39,16 @@ impl Fit {
             return None;
         }
         let farthest = corners.iter().map(|&p| plane.side(at(p)).unsigned_abs()).max().unwrap_or(0);
-        Some(Self { plane, length, deviation: farthest as f64 / length })
+        let normal = plane.n.map(|x| x as f64);
+        Some(Self { plane, origin: float(a), normal, length, deviation: farthest as f64 / length })
+    }
+
+    /// Whether a point is not farther away than some length.
+    pub(super) fn is_near(&self, geometry: &Geometry, p: u32, length: f64) -> bool {
+        let d = minus(geometry.position(p), self.origin);
+        let magnitude: f64 = (0..3).map(|k| (self.normal[k] * d[k]).abs()).sum();
+        let far = dot(self.normal, d).abs() - magnitude * 2f64.powi(-49);
+        far <= length * self.length * (1.0 + 2f64.powi(-49)) && self.distance(geometry, p) <= length
     }
 
     pub(super) fn distance(&self, geometry: &Geometry, p: u32) -> f64 {

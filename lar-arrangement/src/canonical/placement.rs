@@ -4,7 +4,7 @@ use super::cluster::Cluster;
 use super::vector::distance;
 use super::{Report, carried, renumbered};
 use crate::grid_points::PointTable;
-use crate::kernel::{CanonicalPoints, Geometry, Plane, RationalPoint, SharedPlane, Sign, dominant_axis};
+use crate::kernel::{CanonicalPoints, Geometry, Plane, RationalPoint, Sign, dominant_axis};
 use crate::soup::{Placed, Soup};
 use rustc_hash::FxHashMap;
 
@@ -15,7 +15,7 @@ pub(super) fn on_planes(
     plane_of_face: Vec<Vec<Option<u32>>>,
     report: &mut Report,
 ) -> Placed {
-    let planes: Vec<SharedPlane> = clusters.iter().map(|c| c.plane.widened()).collect();
+    let planes: Vec<Plane> = clusters.iter().map(|c| c.plane).collect();
     report.planes = planes.len() as u64;
     let mut of_point = vec![Vec::new(); soup.geometry.n_points()];
     for (cluster, id) in clusters.iter().zip(0..) {
@@ -126,7 +126,7 @@ impl Placement {
         self.new_id.push(id);
     }
 
-    fn finished(self, soup: &Soup, planes: Vec<SharedPlane>, plane_of_face: Vec<Vec<Option<u32>>>) -> Placed {
+    fn finished(self, soup: &Soup, planes: Vec<Plane>, plane_of_face: Vec<Vec<Option<u32>>>) -> Placed {
         let mut canonical = CanonicalPoints { planes, ..CanonicalPoints::default() };
         let n = self.points.len();
         let (mut points, mut point_ids) = (Vec::with_capacity(n), PointTable::with_capacity(n));

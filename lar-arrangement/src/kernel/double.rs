@@ -49,7 +49,7 @@ impl Double {
     }
 
     /// Exact below 2^106, where two halves are, beyond with a relative error below 2^-104.
-    fn from_i128(x: i128) -> Self {
+    pub(super) fn from_i128(x: i128) -> Self {
         const HALF: u32 = 53;
         let m = x.unsigned_abs();
         if m >> (2 * HALF) == 0 {
@@ -60,6 +60,29 @@ impl Double {
         let part = |shift: u32| f64::from((m >> shift) as u32) * 2f64.powi(shift as i32);
         let acc = Self { hi: part(96), lo: 0.0 }.plus(part(64)).plus(part(32)).plus(part(0));
         if x < 0 { acc.negated() } else { acc }
+    }
+
+    /// The sum of three products of factors below 2^83, with a relative error below 2^-103.
+    pub(super) fn from_products(products: [(i128, i128); 3]) -> Self {
+        const HALF: u32 = 42;
+        let split = |x: i128| [(x >> HALF) as i64, x as i64 & ((1 << HALF) - 1)];
+        let product = |x: i64, y: i64| i128::from(x) * i128::from(y);
+        // In units of 2^84, 2^42 and 1: sums of products of 84 bits.
+        let (mut high, mut middle, mut low) = (0, 0, 0);
+        for (x, y) in products {
+            let ([x, x_low], [y, y_low]) = (split(x), split(y));
+            high += product(x, y);
+            middle += product(x, y_low) + product(x_low, y);
+            low += product(x_low, y_low);
+        }
+        // Only what is above 2^84 keeps a sign.
+        middle += low >> HALF;
+        high += middle >> HALF;
+        let low = (middle & ((1 << HALF) - 1)) << HALF | low & ((1 << HALF) - 1);
+        if high.abs() >> 40 == 0 {
+            return Self::from_i128((high << (2 * HALF)) + low);
+        }
+        Self::from_i128(high).scaled(2f64.powi(2 * HALF as i32)).sum(Self::from_i128(low))
     }
 
     pub(super) fn negated(self) -> Self {
@@ -145,6 +168,28 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        #[test]
+        fn sums_of_products_are_close(
+            factors in prop::array::uniform6((-1i128 << 83) + 1..1 << 83),
+            shifts in prop::array::uniform6(0u32..84),
+            cancels: bool,
+        ) {
+            let mut x: [i128; 6] = std::array::from_fn(|k| factors[k] >> shifts[k]);
+            if cancels {
+                (x[2], x[3], x[4]) = (-x[0], x[1], x[4] >> 60);
+            }
+            let products = [(x[0], x[1]), (x[2], x[3]), (x[4], x[5])];
+            let exact = products.iter().fold(Int::<4>::ZERO, |sum, &(x, y)| sum + Int::from(x) * Int::from(y));
+            let found = Double::from_products(products);
+            // Both parts are integers of less than 2^170, and multiples of 2^60 above 2^113.
+            let part = |x: f64| {
+                let (high, bits) = if x.abs() < 1e34 { (x, 0) } else { (x * 2f64.powi(-60), 60) };
+                Int::<4>::from(high as i128).shifted(bits)
+            };
+            let off = part(found.hi) + part(found.lo) - exact;
+            prop_assert!(off.bits() + 103 <= exact.bits().max(103), "{:?} for {:?}", found, exact);
+        }
+
         #[test]
         fn points_between_are_correctly_rounded(
             (start, direction) in ((-1i64 << 40)..1 << 40, (-1i64 << 41)..1 << 41),

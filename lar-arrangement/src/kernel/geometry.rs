@@ -54,6 +54,8 @@ pub(crate) enum VertexDef {
 pub(crate) struct Vertex {
     pub at: [f64; 3],
     pub def: VertexDef,
+    /// Whether it was found where an edge of the input meets a plane.
+    pub is_on_edge: bool,
 }
 
 /// f64 image of a facet's plane: the rounded normal, `origin` a point on it, rounded, and `slack` bounds what that
@@ -92,8 +94,9 @@ pub(crate) struct CanonicalPoints {
     /// For each point 0, or the number of its entry in `rational`, counted from 1; empty when there is none.
     pub entry: Vec<u32>,
     pub rational: Vec<RationalPoint>,
-    pub planes: Vec<SharedPlane>,
-    /// The shared planes that each point lies on; empty when there is none.
+    /// Planes with coefficients of 41 bits and offsets of 83.
+    pub planes: Vec<Plane>,
+    /// The shared planes that each point lies on, ascending; empty when there is none.
     pub planes_of_point: Cells,
 }
 
@@ -107,6 +110,8 @@ pub(crate) struct Geometry {
     positions: Vec<[f64; 3]>,
     /// The same in about 106 bits.
     close_positions: Vec<[Double; 3]>,
+    /// The canonical planes, then others that facets share.
+    shared_planes: Vec<SharedPlane>,
     /// The shared planes in about 106 bits.
     close_planes: Vec<ApproxPlane>,
     /// Of each facet three corners that are not collinear and turn counter-clockwise about its normal.
@@ -117,8 +122,6 @@ pub(crate) struct Geometry {
     plane_codes: Vec<u32>,
     /// The first facet on each shared plane.
     first_on_plane: Vec<u32>,
-    /// How many of the shared planes, the first ones, have small coefficients.
-    n_small_planes: u32,
     reach: Reach,
     pub counters: Counters,
 }
@@ -133,14 +136,15 @@ impl Geometry {
 
     /// Points that may be rational, and planes that facets will share.
     pub(crate) fn canonical(points: Vec<[i64; 3]>, canonical: CanonicalPoints) -> Self {
+        let shared_planes: Vec<SharedPlane> = canonical.planes.iter().map(Plane::widened).collect();
         Self {
             points,
             positions: canonical.rational.iter().map(HPointOf::rounded).collect(),
             close_positions: canonical.rational.iter().map(approx_point).collect(),
-            close_planes: canonical.planes.iter().map(ApproxPlane::new).collect(),
+            close_planes: shared_planes.iter().map(ApproxPlane::new).collect(),
+            shared_planes,
             reach: if canonical.rational.is_empty() { Reach::Grid } else { Reach::Canonical },
             first_on_plane: vec![u32::MAX; canonical.planes.len()],
-            n_small_planes: canonical.planes.len() as u32,
             canonical,
             ..Self::default()
         }
@@ -162,7 +166,7 @@ impl Geometry {
     /// What the plane of a facet takes: small coefficients are smaller than those of planes through grid points.
     pub(super) fn reach_of_facet(&self, facet: u32) -> Reach {
         match self.shared_plane(facet) {
-            Some((plane, _)) if self.n_small_planes <= plane => Reach::Mixed,
+            Some((plane, _)) if self.canonical_plane(plane).is_none() => Reach::Mixed,
             _ => Reach::Grid,
         }
     }
@@ -218,9 +222,9 @@ impl Geometry {
         self.reach = Reach::Mixed;
         let plane = self.plane_through(base);
         self.first_on_plane.push(u32::MAX);
-        self.canonical.planes.push(plane);
+        self.shared_planes.push(plane);
         self.close_planes.push(ApproxPlane::new(&plane));
-        let code = 2 * self.canonical.planes.len() as u32 - 1;
+        let code = 2 * self.shared_planes.len() as u32 - 1;
         self.push_facet_with(base, rounded_normal(&plane), code);
     }
 
@@ -232,7 +236,7 @@ impl Geometry {
 
     /// Whether all points and planes are those of the grid.
     pub(crate) fn is_on_grid(&self) -> bool {
-        self.reach == Reach::Grid && self.canonical.planes.is_empty()
+        self.reach == Reach::Grid && self.shared_planes.is_empty()
     }
 
     /// Makes room for so many facets.
@@ -291,7 +295,7 @@ impl Geometry {
     /// Adds a facet on a shared plane by three of its vertices that are not collinear; `flipped` when these turn
     /// clockwise about the plane's normal.
     pub(crate) fn push_facet_on(&mut self, base: [u32; 3], plane: u32, flipped: bool) {
-        let normal = rounded_normal(&self.canonical.planes[plane as usize]);
+        let normal = rounded_normal(&self.shared_planes[plane as usize]);
         let oriented = if flipped { normal.map(|n| -n) } else { normal };
         self.push_facet_with(base, oriented, 1 + 2 * plane + u32::from(flipped));
     }
@@ -324,7 +328,7 @@ impl Geometry {
     }
 
     pub(super) fn shared(&self, plane: u32) -> &SharedPlane {
-        &self.canonical.planes[plane as usize]
+        &self.shared_planes[plane as usize]
     }
 
     pub(super) fn close_plane(&self, plane: u32) -> &ApproxPlane {
@@ -339,7 +343,26 @@ impl Geometry {
     /// Whether a point lies on a shared plane by definition.
     pub(crate) fn is_defined_on(&self, p: u32, plane: u32) -> bool {
         (p as usize) < self.canonical.planes_of_point.len()
-            && self.canonical.planes_of_point[p as usize].contains(&plane)
+            && self.canonical.planes_of_point[p as usize].binary_search(&plane).is_ok()
+    }
+
+    /// The shared planes that a point lies on by definition, ascending.
+    pub(super) fn planes_of_point(&self, p: u32) -> &[u32] {
+        if self.canonical.planes_of_point.is_empty() {
+            return &[];
+        }
+        &self.canonical.planes_of_point[p as usize]
+    }
+
+    /// The first facet on a shared plane, if one is.
+    pub(super) fn first_on_plane(&self, plane: u32) -> Option<u32> {
+        let first = self.first_on_plane[plane as usize];
+        (first != u32::MAX).then_some(first)
+    }
+
+    /// A shared plane, when it is canonical: one with small coefficients.
+    pub(super) fn canonical_plane(&self, plane: u32) -> Option<&Plane> {
+        self.canonical.planes.get(plane as usize)
     }
 
     /// Whether a point lies on the facet's plane by definition: as one of the corners that define it, or because it
@@ -351,7 +374,7 @@ impl Geometry {
 
     /// The component of a shared plane's normal that is largest, and whether it is positive.
     pub(crate) fn dominant_axis_of_plane(&self, plane: u32) -> (usize, bool) {
-        let n = &self.canonical.planes[plane as usize].n;
+        let n = &self.shared_planes[plane as usize].n;
         let axis = (1..3).fold(0, |best, k| if n[k].bits() > n[best].bits() { k } else { best });
         (axis, n[axis].sign() == Sign::Positive)
     }
@@ -385,25 +408,7 @@ impl Geometry {
     }
 
     pub(crate) fn point_vertex(&self, p: u32) -> Vertex {
-        Vertex { at: self.position(p), def: VertexDef::Point(p) }
-    }
-
-    /// The vertex where an edge meets a plane. Its ends must lie strictly on either side.
-    pub(crate) fn edge_vertex(&self, ends: [u32; 2], support: Support) -> Vertex {
-        let support = match support {
-            Support::Facet(f) => Support::Facet(self.first_in_plane(f)),
-            vertical => vertical,
-        };
-        let def = VertexDef::EdgePlane { ends, support };
-        Vertex { at: self.rounded(&def), def }
-    }
-
-    /// The vertex on three facet planes that are known to meet in one point.
-    pub(crate) fn facets_vertex(&self, facets: [u32; 3]) -> Vertex {
-        let mut facets = facets.map(|f| self.first_in_plane(f));
-        facets.sort_unstable();
-        let def = VertexDef::Facets(facets);
-        Vertex { at: self.rounded(&def), def }
+        Vertex { at: self.position(p), def: VertexDef::Point(p), is_on_edge: false }
     }
 
     /// Homogeneous coordinates X, Y, Z, W in grid steps, integers in decimal digits; W is positive.
@@ -414,11 +419,6 @@ impl Geometry {
     /// The position of a vertex after a move by whole steps, correctly rounded.
     pub(crate) fn rounded_after(&self, v: &Vertex, offset: [i128; 3]) -> [f64; 3] {
         self.moved_and_rounded(&v.def, offset)
-    }
-
-    /// The first facet on the shared plane of a facet; itself, when it shares none.
-    pub(crate) fn first_in_plane(&self, facet: u32) -> u32 {
-        self.shared_plane(facet).map_or(facet, |(plane, _)| self.first_on_plane[plane as usize])
     }
 }
 

@@ -27,6 +27,7 @@
 mod approx;
 #[cfg(test)]
 mod budget;
+mod definition;
 mod double;
 mod exact;
 mod geometry;
@@ -37,9 +38,7 @@ mod predicates;
 mod tests;
 
 pub(crate) use double::Fraction;
-pub(crate) use geometry::{
-    CanonicalPoints, Geometry, RationalPoint, SharedPlane, Support, Vertex, VertexDef, to_f64,
-};
+pub(crate) use geometry::{CanonicalPoints, Geometry, RationalPoint, Support, Vertex, VertexDef, to_f64};
 pub(crate) use int::Int;
 pub(crate) use point::{Plane, dominant_axis, rounded_quotient};
 pub(crate) use predicates::{Along, Direction, Midpoint};

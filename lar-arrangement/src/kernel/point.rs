@@ -44,6 +44,11 @@ impl Plane {
         cross(wide_difference(b, a), wide_difference(c, a))
     }
 
+    /// Six times the volume of the tetrahedron over a triangle: positive where its normal points. At most 125 bits.
+    pub(crate) fn volume([a, b, c]: [[i64; 3]; 3], p: [i64; 3]) -> i128 {
+        dot(Self::normal_through(a, b, c), std::array::from_fn(|k| p[k] - a[k]))
+    }
+
     /// The plane through the edge a → b parallel to `axis`; seen along −axis its normal points to the left of
     /// the edge, that is, the projected triangle (a, b, x) is counter-clockwise where n · x > d.
     pub(crate) fn vertical(a: [i64; 3], b: [i64; 3], axis: usize) -> Self {

@@ -25,25 +25,31 @@ impl Direction {
     pub(crate) fn opposite(self) -> Self {
         Self { reversed: !self.reversed, float: self.float.map(|x| -x), ..self }
     }
-
-    /// The axis along which the approximation is longest.
-    fn longest_axis(&self) -> usize {
-        (1..3).fold(0, |best, k| if self.float[k].abs() > self.float[best].abs() { k } else { best })
-    }
 }
 
 impl Geometry {
     /// On which side of a facet's plane an input point lies: positive on the side of the normal.
     pub(crate) fn side_of_point(&self, p: u32, facet: u32) -> Sign {
-        if let Some(sign) = self.float(facet).side(self.position(p)) {
-            return sign;
-        }
+        self.seen_from(facet).side_of_point(p)
+    }
+
+    /// Makes ready for several points against one facet's plane.
+    #[inline]
+    pub(crate) fn seen_from(&self, facet: u32) -> FacetPlane<'_> {
+        let is_on_grid = self.grid_point(self.base(facet)[0]).is_some();
+        FacetPlane { geometry: self, facet, float: self.float(facet), is_on_grid }
+    }
+
+    fn side_of_point_exactly(&self, p: u32, facet: u32) -> Sign {
         if self.lies_on(p, facet) {
             return Sign::Zero;
         }
         self.counters.count();
-        match (self.grid_point(p), self.grid_plane(Support::Facet(facet))) {
-            (Some(point), Some(plane)) => Sign::from(plane.side(point)),
+        match self.grid_point(p) {
+            Some(point) if self.shared_plane(facet).is_none() => {
+                let corners = self.base(facet).map(|p| self.nearest_grid_point(p));
+                Sign::from(Plane::volume(corners, point))
+            }
             _ => self.exact_side(&VertexDef::Point(p), Support::Facet(facet)),
         }
     }
@@ -83,23 +89,46 @@ impl Geometry {
         }
     }
 
+    /// Orientation of a → b → p, all in the plane of a facet, seen along −axis.
+    pub(crate) fn turn_in_plane(&self, facet: u32, ends: [u32; 2], p: u32, axis: usize) -> Sign {
+        self.near_turn(ends, p, axis).unwrap_or_else(|| {
+            // On another shared plane through both ends.
+            let is_beside = |plane: u32| {
+                let other = self.first_on_plane(plane);
+                self.is_defined_on(p, plane) && other.is_some_and(|other| self.is_across(other, facet))
+            };
+            let is_on_edge = self.planes_of_edge(ends).any(is_beside);
+            if is_on_edge { Sign::Zero } else { self.turn_exactly(ends, p, axis) }
+        })
+    }
+
     /// Orientation of a → b → p seen along −axis.
     pub(crate) fn turn_to(&self, ends: [u32; 2], p: u32, axis: usize) -> Sign {
-        if let ([Some(a), Some(b)], Some(p)) = (ends.map(|p| self.grid_point(p)), self.grid_point(p)) {
-            return Sign::from(Plane::vertical(a, b, axis).side(p));
-        }
+        self.near_turn(ends, p, axis).unwrap_or_else(|| self.turn_exactly(ends, p, axis))
+    }
+
+    /// The same, where points are on the grid or the turn is beyond doubt.
+    #[inline]
+    fn near_turn(&self, ends: [u32; 2], p: u32, axis: usize) -> Option<Sign> {
         let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+        if let ([Some(a), Some(b)], Some(p)) = (ends.map(|p| self.grid_point(p)), self.grid_point(p)) {
+            // Products of two differences of 42 bits.
+            let product = |x: i64, y: i64| i128::from(x) * i128::from(y);
+            let left = product(b[u] - a[u], p[v] - a[v]);
+            return Some(left.cmp(&product(b[v] - a[v], p[u] - a[u])).into());
+        }
         let ([a, b], c) = (ends.map(|p| self.position(p)), self.position(p));
         let d = [b[u] - a[u], b[v] - a[v], c[u] - a[u], c[v] - a[v]];
         let (left, right) = (d[0] * d[3], d[1] * d[2]);
         // Each difference is off by two positions and its own rounding, at most 2^-11.
         let slack = (d.iter().map(|x| x.abs()).sum::<f64>() + 1.0) * 4.0 * ROUNDING;
-        if (left - right).abs() > slack + (left.abs() + right.abs()) * 2f64.powi(-50) {
-            return sign_of(left - right);
-        }
+        ((left - right).abs() > slack + (left.abs() + right.abs()) * 2f64.powi(-50))
+            .then(|| sign_of(left - right))
+    }
+
+    fn turn_exactly(&self, ends: [u32; 2], p: u32, axis: usize) -> Sign {
         self.counters.count();
-        let support = Support::Vertical { ends, axis: axis as u8 };
-        self.exact_side(&VertexDef::Point(p), support)
+        self.exact_side(&VertexDef::Point(p), Support::Vertical { ends, axis: axis as u8 })
     }
 
     /// Order of two input points along a coordinate axis.
@@ -159,27 +188,40 @@ impl Geometry {
     /// A direction with its approximation.
     pub(crate) fn direction(&self, along: Along) -> Direction {
         let (float, error) = match along {
-            Along::Edge(ends) => {
-                let [a, b] = ends.map(|p| self.position(p));
-                let is_exact = ends.iter().all(|&p| self.grid_point(p).is_some());
-                // Two rounded positions and the rounding of their difference.
-                (std::array::from_fn(|k| b[k] - a[k]), if is_exact { 0.0 } else { 4.0 * ROUNDING })
-            }
-            Along::Facets([f, g]) => {
-                let (m, n) = (self.normal(f), self.normal(g));
-                let largest = |v: [f64; 3]| v[0].abs().max(v[1].abs()).max(v[2].abs());
-                let cross = [m[1] * n[2] - m[2] * n[1], m[2] * n[0] - m[0] * n[2], m[0] * n[1] - m[1] * n[0]];
-                // Each of two products carries three roundings of 2^-53, their difference, which may be as large as
-                // both together, one more: 8 · 2^-53 and terms of 2^-104, for which the bound is doubled.
-                (cross, largest(m) * largest(n) * 2f64.powi(-49))
-            }
+            Along::Edge(ends) => self.difference(ends),
+            Along::Facets(facets) => self.cross_product(facets),
         };
         Direction { along, reversed: false, float, error }
     }
 
+    #[inline]
+    fn difference(&self, ends: [u32; 2]) -> ([f64; 3], f64) {
+        let [a, b] = ends.map(|p| self.position(p));
+        let is_exact = ends.iter().all(|&p| self.grid_point(p).is_some());
+        // Two rounded positions and the rounding of their difference.
+        (std::array::from_fn(|k| b[k] - a[k]), if is_exact { 0.0 } else { 4.0 * ROUNDING })
+    }
+
+    #[inline]
+    fn cross_product(&self, facets: [u32; 2]) -> ([f64; 3], f64) {
+        let [m, n] = facets.map(|f| self.normal(f));
+        let largest = |v: [f64; 3]| v[0].abs().max(v[1].abs()).max(v[2].abs());
+        let cross = [m[1] * n[2] - m[2] * n[1], m[2] * n[0] - m[0] * n[2], m[0] * n[1] - m[1] * n[0]];
+        // Each of two products carries three roundings of 2^-53, their difference, which may be as large as
+        // both together, one more: 8 · 2^-53 and terms of 2^-104, for which the bound is doubled.
+        (cross, largest(m) * largest(n) * 2f64.powi(-49))
+    }
+
+    /// An axis along which the line of two facets' planes is not at right angles.
+    pub(crate) fn axis_of_line(&self, facets: [u32; 2]) -> usize {
+        let (float, error) = self.cross_product(facets);
+        let axis = longest_axis(float);
+        if float[axis].abs() > error { axis } else { self.axis_of(&self.direction(Along::Facets(facets))).0 }
+    }
+
     /// An axis along which the direction is not zero, and the sign of that component.
     pub(crate) fn axis_of(&self, d: &Direction) -> (usize, Sign) {
-        let axis = d.longest_axis();
+        let axis = longest_axis(d.float);
         if d.float[axis].abs() > d.error {
             return (axis, Sign::from(d.float[axis].signum() as i8));
         }
@@ -235,9 +277,9 @@ impl Geometry {
     }
 
     /// Whether the planes of two facets are not parallel beyond doubt.
-    fn is_across(&self, f: u32, g: u32) -> bool {
-        let line = self.direction(Along::Facets([f, g]));
-        line.float.iter().any(|x| x.abs() > line.error)
+    pub(super) fn is_across(&self, f: u32, g: u32) -> bool {
+        let (line, error) = self.cross_product([f, g]);
+        line.iter().any(|x| x.abs() > error)
     }
 
     /// For two facets with parallel planes: whether their normals point the same way.
@@ -305,6 +347,26 @@ impl Geometry {
     }
 }
 
+/// The plane of a facet, for tests of several points.
+pub(crate) struct FacetPlane<'a> {
+    geometry: &'a Geometry,
+    facet: u32,
+    float: FloatPlane,
+    /// Whether its origin is a point of the grid.
+    is_on_grid: bool,
+}
+
+impl FacetPlane<'_> {
+    /// On which side an input point lies: positive on the side of the normal.
+    #[inline]
+    pub(crate) fn side_of_point(&self, p: u32) -> Sign {
+        let is_exact = self.is_on_grid && self.geometry.grid_point(p).is_some();
+        let slack = if is_exact { 0.0 } else { self.float.slack };
+        let side = self.float.side(self.geometry.position(p), slack);
+        side.unwrap_or_else(|| self.geometry.side_of_point_exactly(p, self.facet))
+    }
+}
+
 impl FloatPlane {
     /// n · (p − o), and the sum of the products' magnitudes.
     fn sum(&self, p: [f64; 3]) -> (f64, f64) {
@@ -316,10 +378,15 @@ impl FloatPlane {
     ///
     /// Differences of grid coordinates are exact in f64 (41 bits), those of others within the slack; with three
     /// normal components off by 1.5 · 2^-53, three products and two sums the error is below 7 · 2^-53 of the sum of the
-    /// products' magnitudes.
-    fn side(&self, p: [f64; 3]) -> Option<Sign> {
+    /// products' magnitudes. Differences and components round to zero only when they are zero, and products do not
+    /// underflow.
+    #[inline]
+    fn side(&self, p: [f64; 3], slack: f64) -> Option<Sign> {
         let (sum, magnitude) = self.sum(p);
-        (sum.abs() > magnitude * 2f64.powi(-50) + self.slack).then(|| sign_of(sum))
+        if magnitude == 0.0 && slack == 0.0 {
+            return Some(Sign::Zero);
+        }
+        (sum.abs() > magnitude * 2f64.powi(-50) + slack).then(|| sign_of(sum))
     }
 
     /// A bound on the error of `sum` for a rounded position: it, the origin and a midpoint are off by 2^-12 at most,
@@ -348,6 +415,10 @@ impl FloatPlane {
 pub(crate) struct Midpoint {
     pub at: [f64; 3],
     pub of: [VertexDef; 2],
+}
+
+fn longest_axis(v: [f64; 3]) -> usize {
+    (1..3).fold(0, |best, k| if v[k].abs() > v[best].abs() { k } else { best })
 }
 
 fn sign_of(x: f64) -> Sign {

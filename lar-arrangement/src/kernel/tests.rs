@@ -152,7 +152,7 @@ fn canonical(points: &[[i64; 3]], random: &mut Random) -> CanonicalPoints {
         }
         out.planes_of_point.push(&on);
     }
-    out.planes = planes.iter().map(Plane::widened).collect();
+    out.planes = planes.to_vec();
     out
 }
 
@@ -282,7 +282,14 @@ impl Scene {
             let (at_p, at_q) = (dot(&n, &p.x) - &d * &p.w, dot(&n, &q.x) - &d * &q.w);
             let w = &at_p * &q.w - &at_q * &p.w;
             let x = std::array::from_fn(|k| &at_p * &q.x[k] - &at_q * &p.x[k]);
-            self.vertices.push((self.geometry.edge_vertex(ends, support), Exact::new(x, w)));
+            let exact = Exact::new(x, w);
+            let mut defs = vec![VertexDef::EdgePlane { ends, support }];
+            if let Support::Facet(facet) = support {
+                defs.push(self.geometry.edge_definition(ends, facet));
+                defs.dedup();
+            }
+            self.vertices
+                .extend(defs.into_iter().map(|def| (self.geometry.vertex_on_edge(def), exact.clone())));
         }
     }
 

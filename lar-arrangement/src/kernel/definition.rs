@@ -1,0 +1,89 @@
+//! Definitions of vertices. Where planes are shared, the same point is found in many ways: it then gets, as far as that
+//! can be told cheaply, one definition, by three of these planes, and needs no arithmetic to be known as one.
+
+use super::geometry::{Geometry, Support, Vertex, VertexDef};
+
+/// Of so many shared planes at most it is tried which three define a vertex.
+const MOST_PLANES: usize = 6;
+
+impl Geometry {
+    /// The definition of the point where an edge meets the plane of a facet. Its ends must lie strictly on either side.
+    pub(crate) fn edge_definition(&self, ends: [u32; 2], facet: u32) -> VertexDef {
+        let of_facet = self.shared_plane(facet).map(|(plane, _)| plane).into_iter();
+        self.on_three_planes(ends, of_facet).unwrap_or_else(|| {
+            let support = Support::Facet(self.first_in_plane(facet));
+            VertexDef::EdgePlane { ends, support }
+        })
+    }
+
+    /// The definition of the point where two edges cross, both in one plane, which is not parallel to the axis.
+    pub(crate) fn crossing_definition(&self, ends: [u32; 2], others: [u32; 2], axis: usize) -> VertexDef {
+        self.on_three_planes(ends, self.planes_of_edge(others)).unwrap_or_else(|| {
+            let support = Support::Vertical { ends: others, axis: axis as u8 };
+            VertexDef::EdgePlane { ends, support }
+        })
+    }
+
+    /// The vertex on an edge by its definition.
+    pub(crate) fn vertex_on_edge(&self, def: VertexDef) -> Vertex {
+        Vertex { at: self.rounded(&def), def, is_on_edge: true }
+    }
+
+    /// The vertex on three facet planes that are known to meet in one point.
+    pub(crate) fn facets_vertex(&self, facets: [u32; 3]) -> Vertex {
+        let mut facets = facets.map(|f| self.first_in_plane(f));
+        facets.sort_unstable();
+        let def = VertexDef::Facets(facets);
+        Vertex { at: self.rounded(&def), def, is_on_edge: false }
+    }
+
+    /// The first facet on the shared plane of a facet; itself, when it shares none.
+    pub(crate) fn first_in_plane(&self, facet: u32) -> u32 {
+        self.shared_plane(facet).and_then(|(plane, _)| self.first_on_plane(plane)).unwrap_or(facet)
+    }
+
+    /// The shared planes that both ends of an edge lie on by definition, ascending.
+    pub(super) fn planes_of_edge(&self, ends: [u32; 2]) -> impl Iterator<Item = u32> + '_ {
+        let [few, many] = {
+            let [a, b] = ends.map(|p| self.planes_of_point(p));
+            if a.len() <= b.len() { [a, b] } else { [b, a] }
+        };
+        few.iter().copied().filter(|plane| many.binary_search(plane).is_ok())
+    }
+
+    /// A point of an edge, and on some shared planes, by three canonical planes that meet in no other point: the first such
+    /// among these planes and those that hold the edge.
+    fn on_three_planes(&self, ends: [u32; 2], others: impl Iterator<Item = u32>) -> Option<VertexDef> {
+        let (mut planes, mut n) = ([0; MOST_PLANES], 0);
+        let (of_edge, others) =
+            (self.planes_of_edge(ends).take(MOST_PLANES / 2), others.take(MOST_PLANES / 2));
+        for plane in of_edge.chain(others) {
+            planes[n] = plane;
+            n += 1;
+        }
+        let planes = &mut planes[..n];
+        planes.sort_unstable();
+        let on = |plane: &u32| self.first_on_plane(*plane).filter(|_| self.canonical_plane(*plane).is_some());
+        let mut facets = planes.iter().filter_map(on);
+        let a = facets.next()?;
+        let b = facets.find(|&b| self.is_across(a, b))?;
+        let c = facets.find(|&c| self.meet_in_one_point([a, b, c]))?;
+        let mut facets = [a, b, c];
+        facets.sort_unstable();
+        Some(VertexDef::Facets(facets))
+    }
+
+    /// Whether the planes of three facets meet in one point beyond doubt.
+    fn meet_in_one_point(&self, facets: [u32; 3]) -> bool {
+        let [l, m, n] = facets.map(|f| self.normal(f));
+        let (mut det, mut magnitude) = (0.0, 0.0);
+        for k in 0..3 {
+            let (u, v) = ((k + 1) % 3, (k + 2) % 3);
+            let (left, right) = (l[u] * m[v], l[v] * m[u]);
+            det += (left - right) * n[k];
+            magnitude += (left.abs() + right.abs()) * n[k].abs();
+        }
+        // Three components off by 2^-52 each and at most six roundings of 2^-53 in a term.
+        det.abs() > magnitude * 2f64.powi(-48)
+    }
+}
