@@ -10,11 +10,23 @@ use crate::soup::Soup;
 /// All pairs of edges are looked at: a facet has at most 64.
 #[derive(Default)]
 pub(crate) struct Overlay {
-    facets: [u32; 2],
+    facets: [Facet; 2],
     /// The axis along which the plane is seen.
     axis: usize,
-    /// The turn from edge i of a facet to corner j of the other, at `i * corners of the other + j`.
-    turns: [Vec<Sign>; 2],
+}
+
+#[derive(Default)]
+struct Facet {
+    id: u32,
+    edges: Vec<u32>,
+    /// Of each edge.
+    ends: Vec<[u32; 2]>,
+    /// The edge after each edge in its loop: corner i is where edge i starts.
+    next: Vec<usize>,
+    /// On which side of its edges the facet lies as it is seen.
+    inner: Option<Sign>,
+    /// The turn from edge i to corner j of the other facet, at `i * corners of the other + j`.
+    turns: Vec<Sign>,
 }
 
 /// Splits the edges of two coplanar facets by each other; true when the facets' insides (may) overlap.
@@ -22,11 +34,11 @@ pub(crate) fn meet(soup: &Soup, pair: [u32; 2], overlay: &mut Overlay, out: &mut
     if !overlay.look(soup, pair) {
         return false;
     }
-    let [f, g] = pair.map(|f| &soup.facet_edges[f as usize]);
-    for (i, &e) in f.iter().enumerate() {
-        for (j, &h) in g.iter().enumerate() {
-            if e / 2 != h / 2 {
-                overlay.split_each_other(soup, [(i, e), (j, h)], out);
+    let [f, g] = &overlay.facets;
+    for i in 0..f.edges.len() {
+        for j in 0..g.edges.len() {
+            if f.edges[i] / 2 != g.edges[j] / 2 {
+                overlay.split_each_other(soup, [i, j], out);
             }
         }
     }
@@ -41,64 +53,39 @@ pub(crate) fn overlap(soup: &Soup, pair: [u32; 2]) -> bool {
 
 impl Overlay {
     /// Looks at two facets; false when they are triangles and an edge of one has all of the other beyond it.
-    fn look(&mut self, soup: &Soup, facets: [u32; 2]) -> bool {
-        (self.axis, _) = soup.geometry.dominant_axis(facets[0]);
-        self.facets = facets;
-        let are_triangles = facets.iter().all(|&f| soup.facet_edges[f as usize].len() == 3);
-        for k in 0..2 {
-            let (f, g) = (facets[k], facets[1 - k]);
-            let beyond = -self.inner(soup, k);
-            self.turns[k].clear();
-            for &e in &soup.facet_edges[f as usize] {
-                let ends = soup.directed(e);
-                let first = self.turns[k].len();
-                self.turns[k].extend(soup.facet_edges[g as usize].iter().map(|&h| {
-                    let [p, _] = soup.directed(h);
-                    if ends.contains(&p) {
-                        Sign::Zero
-                    } else {
-                        soup.geometry.turn_in_plane(f, ends, p, self.axis)
-                    }
-                }));
-                if are_triangles && self.turns[k][first..].iter().all(|&turn| turn == beyond) {
-                    return false;
-                }
-            }
+    fn look(&mut self, soup: &Soup, pair: [u32; 2]) -> bool {
+        (self.axis, _) = soup.geometry.dominant_axis(pair[0]);
+        for (facet, id) in self.facets.iter_mut().zip(pair) {
+            facet.read(soup, id, self.axis);
         }
-        true
+        let [f, g] = &mut self.facets;
+        f.look_at(soup, g, self.axis) && g.look_at(soup, f, self.axis)
     }
 
-    /// On which side of its edges a facet lies as it is seen.
-    fn inner(&self, soup: &Soup, k: usize) -> Sign {
-        soup.geometry.normal_sign(self.facets[k], self.axis)
-    }
-
-    /// The turns from edge i of facet k to the ends of edge j of the other.
-    fn turns_to(&self, soup: &Soup, k: usize, i: usize, j: usize) -> [Sign; 2] {
-        let others = &soup.facet_edges[self.facets[1 - k] as usize];
-        let turns = &self.turns[k][i * others.len()..];
-        [turns[j], turns[soup.next_in_loop(others, j)]]
-    }
-
-    fn split_each_other(&self, soup: &Soup, [(i, e), (j, h)]: [(usize, u32); 2], out: &mut Contacts) {
+    fn split_each_other(&self, soup: &Soup, [i, j]: [usize; 2], out: &mut Contacts) {
         let geometry = &soup.geometry;
-        let of_h = self.turns_to(soup, 0, i, j);
-        let of_e = self.turns_to(soup, 1, j, i);
-        if [of_h, of_e].iter().any(|turns| turns[0].times(turns[1]) == Sign::Positive) {
+        let [f, g] = &self.facets;
+        let of_h = f.turns_to(i, g, j);
+        if of_h[0].times(of_h[1]) == Sign::Positive {
             return;
         }
-        let (ends_e, ends_h) = (soup.directed(e), soup.directed(h));
+        let of_e = g.turns_to(j, f, i);
+        if of_e[0].times(of_e[1]) == Sign::Positive {
+            return;
+        }
+        let (e, h) = (f.edges[i] / 2, g.edges[j] / 2);
         if of_h[0].times(of_h[1]) == Sign::Negative && of_e[0].times(of_e[1]) == Sign::Negative {
-            let [ends, others] = [e, h].map(|e| soup.edges[e as usize / 2]);
+            let [ends, others] = [e, h].map(|e| soup.edges[e as usize]);
             let def = geometry.crossing_definition(ends, others, self.axis);
             let v = out.edge_vertex(geometry, def, |def| geometry.vertex_on_edge(def));
-            out.splits.extend([(e / 2, v), (h / 2, v)]);
+            out.splits.extend([(e, v), (h, v)]);
             return;
         }
-        for (edge, ends, others, turns) in [(e, ends_e, ends_h, of_h), (h, ends_h, ends_e, of_e)] {
+        for (edge, ends, others, turns) in [(e, f.ends[i], g.ends[j], of_h), (h, g.ends[j], f.ends[i], of_e)]
+        {
             for (p, turn) in others.into_iter().zip(turns) {
                 if turn == Sign::Zero && strictly_between(geometry, ends, p) {
-                    out.splits.push((edge / 2, p));
+                    out.splits.push((edge, p));
                 }
             }
         }
@@ -107,23 +94,57 @@ impl Overlay {
     /// Whether the insides (may) overlap: neither facet is convex with an edge that has all corners of the other on its
     /// outer side or on its line.
     fn may_overlap(&self, soup: &Soup) -> bool {
-        (0..2).all(|k| {
-            let inner = self.inner(soup, k);
-            let n_others = soup.facet_edges[self.facets[1 - k] as usize].len();
-            let separates = |turns: &[Sign]| turns.iter().all(|&turn| turn != inner);
-            !(self.turns[k].chunks(n_others).any(separates) && self.is_convex(soup, k))
+        let [f, g] = &self.facets;
+        [(f, g), (g, f)].into_iter().all(|(this, other)| {
+            let separates = |turns: &[Sign]| turns.iter().all(|&turn| Some(turn) != this.inner);
+            !(this.turns.chunks(other.edges.len()).any(separates) && this.is_convex(soup, self.axis))
         })
     }
+}
 
-    fn is_convex(&self, soup: &Soup, k: usize) -> bool {
-        let facet = self.facets[k];
-        let edges = &soup.facet_edges[facet as usize];
-        let beyond = -self.inner(soup, k);
-        let is_in = |ends: [u32; 2], p: u32| {
-            ends.contains(&p) || soup.geometry.turn_in_plane(facet, ends, p, self.axis) != beyond
-        };
-        edges.len() == 3
-            || edges.iter().all(|&e| edges.iter().all(|&h| is_in(soup.directed(e), soup.directed(h)[0])))
+impl Facet {
+    fn read(&mut self, soup: &Soup, id: u32, axis: usize) {
+        let edges = &soup.facet_edges[id as usize];
+        self.id = id;
+        self.edges.clear();
+        self.ends.clear();
+        self.next.clear();
+        self.edges.extend_from_slice(edges);
+        self.ends.extend(edges.iter().map(|&e| soup.directed(e)));
+        self.next.extend((0..edges.len()).map(|i| soup.next_in_loop(edges, i)));
+        self.inner = Some(soup.geometry.normal_sign(id, axis));
+    }
+
+    /// Finds the turns; false when both are triangles and an edge has all of the other facet beyond it.
+    fn look_at(&mut self, soup: &Soup, other: &Self, axis: usize) -> bool {
+        let are_triangles = self.edges.len() == 3 && other.edges.len() == 3;
+        let mut turns = std::mem::take(&mut self.turns);
+        turns.clear();
+        let is_beyond = |turn: &Sign| *turn != Sign::Zero && Some(*turn) != self.inner;
+        let is_apart = self.ends.iter().any(|&ends| {
+            let first = turns.len();
+            turns.extend(other.ends.iter().map(|&[p, _]| self.turn(soup, ends, p, axis)));
+            are_triangles && turns[first..].iter().all(is_beyond)
+        });
+        self.turns = turns;
+        !is_apart
+    }
+
+    fn turn(&self, soup: &Soup, ends: [u32; 2], p: u32, axis: usize) -> Sign {
+        if ends.contains(&p) { Sign::Zero } else { soup.geometry.turn_in_plane(self.id, ends, p, axis) }
+    }
+
+    /// The turns from edge i to the ends of edge j of the other facet.
+    fn turns_to(&self, i: usize, other: &Self, j: usize) -> [Sign; 2] {
+        let turns = &self.turns[i * other.edges.len()..];
+        [turns[j], turns[other.next[j]]]
+    }
+
+    fn is_convex(&self, soup: &Soup, axis: usize) -> bool {
+        let is_in = |turn: Sign| turn == Sign::Zero || Some(turn) == self.inner;
+        let has_all_in =
+            |&ends: &[u32; 2]| self.ends.iter().all(|&[p, _]| is_in(self.turn(soup, ends, p, axis)));
+        self.edges.len() == 3 || self.ends.iter().all(has_all_in)
     }
 }
 

@@ -223,8 +223,9 @@ struct Local<'a> {
     known: Vec<u32>,
     interner: Interner,
     pieces: Vec<Piece>,
-    /// Uses of the first pieces; cuts have none.
-    uses: Vec<Vec<Use>>,
+    /// Uses of the first pieces, and where those of each end; cuts have none.
+    uses: Vec<Use>,
+    use_ends: Vec<u32>,
     /// Boxes of the pieces, built when a component has to be located.
     boxes: OnceCell<BoxTree>,
 }
@@ -257,6 +258,7 @@ impl<'a> Local<'a> {
             interner,
             pieces: Vec::new(),
             uses: Vec::new(),
+            use_ends: Vec::new(),
             boxes: OnceCell::new(),
         }
     }
@@ -307,7 +309,8 @@ impl<'a> Local<'a> {
         all.sort_by_key(|(piece, used, _)| (piece.ends, used.member));
         for same in all.chunk_by(|a, b| a.0.ends == b.0.ends) {
             self.pieces.push(Piece { soft: same.iter().all(|(p, _, _)| p.soft), ..same[0].0 });
-            self.uses.push(same.iter().map(|(_, used, _)| *used).collect());
+            self.uses.extend(same.iter().map(|(_, used, _)| *used));
+            self.use_ends.push(self.uses.len() as u32);
         }
     }
 
@@ -527,8 +530,13 @@ impl<'a> Local<'a> {
     }
 
     /// For each face the members that contain it, by walking from the outside across the boundary pieces.
-    fn windings(&self, subdivision: &Subdivision) -> Vec<Vec<u32>> {
+    fn windings(&self, subdivision: &Subdivision) -> Cells {
         let n = subdivision.n_faces();
+        if self.is_one_triangle() {
+            // It has all faces but the outer one.
+            let offsets = std::iter::once(0).chain(0..n as u32).collect();
+            return Cells::from_parts(offsets, vec![0; n - 1]);
+        }
         let mut around: Vec<Vec<u32>> = vec![Vec::new(); n];
         for h in 0..2 * self.pieces.len() as u32 {
             around[subdivision.face(h) as usize].push(h);
@@ -547,14 +555,33 @@ impl<'a> Local<'a> {
                 }
             }
         }
-        counts.into_iter().map(|c| c.into_iter().flatten().map(|(member, _)| member).collect()).collect()
+        let mut members = Cells::new();
+        for counted in counts {
+            members.push(&counted.iter().flatten().map(|(member, _)| *member).collect::<Vec<_>>());
+        }
+        members
+    }
+
+    fn is_one_triangle(&self) -> bool {
+        matches!(self.group, &[facet] if self.from.soup.facet_edges[facet as usize].len() == 3)
+    }
+
+    fn uses_of(&self, piece: u32) -> &[Use] {
+        let piece = piece as usize;
+        match self.use_ends.get(piece) {
+            Some(&end) => {
+                let start = piece.checked_sub(1).map_or(0, |before| self.use_ends[before]);
+                &self.uses[start as usize..end as usize]
+            }
+            None => &[],
+        }
     }
 
     /// The counts on the left of half-edge h, from those on its right.
     fn across(&self, right: &[(u32, i32)], h: u32) -> Vec<(u32, i32)> {
         let mut left = right.to_vec();
         let along = if h.is_multiple_of(2) { 1 } else { -1 };
-        for used in self.uses.get((h / 2) as usize).into_iter().flatten() {
+        for used in self.uses_of(h / 2) {
             let same_way = self.geometry().same_way(self.group[0], self.group[used.member as usize]);
             let change = i32::from(used.sign) * along * if same_way { 1 } else { -1 };
             match left.binary_search_by_key(&used.member, |c| c.0) {
@@ -569,7 +596,7 @@ impl<'a> Local<'a> {
     }
 
     /// Writes the faces inside at least one member.
-    fn emit(&self, subdivision: &Subdivision, windings: &[Vec<u32>], out: &mut Fragments) {
+    fn emit(&self, subdivision: &Subdivision, windings: &Cells, out: &mut Fragments) {
         let n_base = self.from.vertices.len() as u32;
         let new_from = n_base + out.vertices.len() as u32;
         out.vertices.extend_from_slice(&self.interner.vertices[self.known.len()..]);
@@ -579,7 +606,8 @@ impl<'a> Local<'a> {
         };
         let first_piece = out.pieces.len() as u32;
         out.pieces.extend(self.pieces.iter().map(|p| Piece { ends: p.ends.map(global), ..*p }));
-        for (face, members) in windings.iter().enumerate().skip(1) {
+        for face in 1..subdivision.n_faces() {
+            let members = &windings[face];
             let Some(&first) = members.first() else { continue };
             let first = self.group[first as usize];
             let turned = !self.geometry().same_way(self.group[0], first);

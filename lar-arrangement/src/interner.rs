@@ -5,10 +5,15 @@ use crate::kernel::{Geometry, Vertex};
 use crate::parallel;
 use rustc_hash::FxHashMap;
 
+/// Among so many vertices one is looked for without a table.
+const FEW: usize = 24;
+
 /// All vertices found so far.
 #[derive(Debug, Default)]
 pub(crate) struct Interner {
     pub vertices: Vec<Vertex>,
+    /// How many of them, the first ones, are in the tables.
+    n_entered: usize,
     /// Points of the input by their coordinates.
     grid_points: PointTable,
     /// First vertex with a position; the position is correctly rounded, so equal points have equal positions.
@@ -31,15 +36,16 @@ impl Interner {
         if geometry.is_on_grid() {
             parallel::extend_light(&mut interner.vertices, n, |p| geometry.point_vertex(p as u32));
             interner.next_at.extend(0..n as u32);
+            interner.n_entered = n;
             return interner;
         }
         for p in 0..n as u32 {
-            let vertex = geometry.point_vertex(p);
+            interner.vertices.push(geometry.point_vertex(p));
             if geometry.grid_point(p).is_some() {
-                interner.vertices.push(vertex);
                 interner.next_at.push(p);
+                interner.n_entered += 1;
             } else {
-                interner.push(vertex);
+                interner.enter();
             }
         }
         interner
@@ -47,8 +53,15 @@ impl Interner {
 
     /// Adds a vertex that is known to differ from all others.
     pub(crate) fn push(&mut self, vertex: Vertex) -> u32 {
-        let id = self.vertices.len() as u32;
-        let first = *self.first_at.entry(key(&vertex)).or_insert(id);
+        self.vertices.push(vertex);
+        self.vertices.len() as u32 - 1
+    }
+
+    /// Enters the first vertex that is not yet in the tables.
+    fn enter(&mut self) {
+        let id = self.n_entered as u32;
+        self.n_entered += 1;
+        let first = *self.first_at.entry(key(&self.vertices[id as usize])).or_insert(id);
         if first == id {
             self.next_at.push(id);
         } else {
@@ -57,32 +70,38 @@ impl Interner {
             self.next_at.push(if second == first { id } else { second });
             self.next_at[first as usize] = id;
         }
-        self.vertices.push(vertex);
-        id
     }
 
     /// The number of the vertex, known or new.
     pub(crate) fn intern(&mut self, vertex: Vertex, geometry: &Geometry) -> u32 {
+        self.find(&vertex, geometry).unwrap_or_else(|| self.push(vertex))
+    }
+
+    fn find(&mut self, vertex: &Vertex, geometry: &Geometry) -> Option<u32> {
+        if self.vertices.len() <= FEW {
+            let found = self.vertices.iter().position(|known| geometry.coincide(known, vertex));
+            return found.map(|id| id as u32);
+        }
+        while self.n_entered < self.vertices.len() {
+            self.enter();
+        }
         let at = vertex.at.map(|x| x as i64);
         if let Some(p) = self.grid_points.find(at, |p| geometry.nearest_grid_point(p))
-            && geometry.coincide(&self.vertices[p as usize], &vertex)
+            && geometry.coincide(&self.vertices[p as usize], vertex)
         {
-            return p;
+            return Some(p);
         }
-        if let Some(&first) = self.first_at.get(&key(&vertex)) {
-            let mut at = first;
-            loop {
-                if geometry.coincide(&self.vertices[at as usize], &vertex) {
-                    return at;
-                }
-                let next = self.next_at[at as usize];
-                if next == at {
-                    break;
-                }
-                at = next;
+        let mut at = *self.first_at.get(&key(vertex))?;
+        loop {
+            if geometry.coincide(&self.vertices[at as usize], vertex) {
+                return Some(at);
             }
+            let next = self.next_at[at as usize];
+            if next == at {
+                return None;
+            }
+            at = next;
         }
-        self.push(vertex)
     }
 }
 

@@ -11,6 +11,7 @@
 
 mod cluster;
 mod fit;
+mod near;
 mod placement;
 mod scan;
 mod vector;

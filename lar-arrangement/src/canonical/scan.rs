@@ -1,7 +1,7 @@
 //! Which points are nearly one, and which pairs of facets lie nearly in one plane.
 
 use super::vector::{distance, dot, minus};
-use super::{Input, Tolerance};
+use super::{Input, Tolerance, near};
 use crate::boxes::NO_GROUP;
 use crate::parallel;
 use crate::progress::{Cancelled, Course};
@@ -58,7 +58,8 @@ impl Scan {
             range(chunk).for_each(|f| coplanar_neighbours(input, f as u32, largest, &mut found));
             found
         })?);
-        Ok(Self { near: near_points(input, course)?, coplanar: coplanar.concat() })
+        course.go_on()?;
+        Ok(Self { near: near::points(input), coplanar: coplanar.concat() })
     }
 }
 
@@ -136,42 +137,6 @@ impl Triangle {
 /// Not shorter than the vector.
 fn size(v: [f64; 3]) -> f64 {
     v.iter().map(|x| x.abs()).sum()
-}
-
-/// Pairs of points of different facets or of one within the tolerance, ascending. Corners of facets of one
-/// chart, or that share a clean point, are farther apart.
-fn near_points(input: &Input, course: &Course) -> Result<Vec<[u32; 2]>, Cancelled> {
-    let geometry = &input.soup.geometry;
-    let limit = |p: u32| input.soup.tolerances[p as usize].points();
-    let is_near = |p: u32, q: u32| {
-        let (a, b) = (geometry.nearest_grid_point(p), geometry.nearest_grid_point(q));
-        let limit = limit(p).max(limit(q));
-        p != q && (0..3).all(|k| a[k].abs_diff(b[k]) as f64 <= limit)
-    };
-    // At most 64 corners a facet.
-    let between = |f: u32, g: u32, near: &mut Vec<[u32; 2]>| {
-        for p in input.corners(f) {
-            let close = input.corners(g).filter(|&q| is_near(p, q));
-            near.extend(close.map(|q| [p.min(q), p.max(q)]));
-        }
-    };
-    let (n_chunks, range) = parallel::chunks(input.pairs.len(), PAIRS_A_CHUNK);
-    let mut near = course.map(n_chunks, |chunk| {
-        let mut near = Vec::new();
-        input.pairs[range(chunk)].iter().for_each(|&[f, g]| between(f, g, &mut near));
-        near
-    })?;
-    let (n_chunks, range) = parallel::chunks(input.soup.n_facets(), PAIRS_A_CHUNK);
-    near.extend(course.map(n_chunks, |chunk| {
-        let mut near = Vec::new();
-        let facets = range(chunk).map(|f| f as u32);
-        facets.filter(|&f| !input.has_corners_apart(f)).for_each(|f| between(f, f, &mut near));
-        near
-    })?);
-    let mut near = near.concat();
-    near.sort_unstable();
-    near.dedup();
-    Ok(near)
 }
 
 fn are_nearly_coplanar(input: &Input, [f, g]: [u32; 2]) -> bool {

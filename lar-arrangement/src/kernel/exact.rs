@@ -15,7 +15,8 @@ trait Operand {
 impl Operand for VertexDef {
     fn reach(&self, geometry: &Geometry) -> Reach {
         match *self {
-            VertexDef::Point(p) => geometry.reach_of_point(p),
+            // Even a rational one is no larger than the point on three planes of the grid.
+            VertexDef::Point(_) => Reach::Grid,
             VertexDef::EdgePlane { ends, support } => ends.reach(geometry).max(support.reach(geometry)),
             VertexDef::Facets(facets) => {
                 facets.into_iter().map(|f| geometry.reach_of_facet(f)).max().unwrap_or_default()

@@ -6,7 +6,8 @@
 //! Bit budget, for grid coordinates |x| ≤ 2^40 (b = 40). Every quantity is affine in each single coordinate of the
 //! input, so the first eight of the grid are largest at the corners of the cube |x| ≤ 2^40, where a test finds these
 //! maxima; the others are bounded by sums of their products. *Canonical* operands are also planes with coefficients of
-//! 41 bits and points on three of them, *mixed* ones also planes through such points.
+//! 41 bits and edges between points on three of them, *mixed* ones also planes through such points. Such a point alone
+//! is smaller than one on three planes of the grid.
 //!
 //! | quantity | grid | canonical | mixed |
 //! |---|---|---|---|

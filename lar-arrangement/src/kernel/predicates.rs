@@ -148,12 +148,9 @@ impl Geometry {
         if a.def == b.def {
             return Ordering::Equal;
         }
-        let grid_point = |v: &Vertex| match v.def {
-            VertexDef::Point(p) => self.grid_point(p),
-            _ => None,
-        };
-        if let (Some(p), Some(q)) = (grid_point(a), grid_point(b)) {
-            return p[axis].cmp(&q[axis]);
+        if let (Some([x, v]), Some([y, w])) = (self.coordinate(&a.def, axis), self.coordinate(&b.def, axis)) {
+            // At most 83 bits times 41.
+            return (x * w).cmp(&(y * v));
         }
         self.counters.count();
         self.exact_order(&a.def, &b.def, axis)
