@@ -417,7 +417,7 @@ impl<const D: usize> BoxTree<D> {
         let mut pairs = parts.concat();
         if !self.ranks.is_empty() {
             // The order that there would be without groups: what is found of these shows in no result.
-            pairs.sort_unstable_by_key(|pair| {
+            pairs.sort_by_cached_key(|pair| {
                 let [a, b] = pair.map(|item| self.ranks[item as usize]);
                 (a.min(b) / WIDTH as u32, a.max(b), a.min(b))
             });

@@ -2,7 +2,7 @@
 //! is fragmented as one.
 
 use crate::crossing::Contacts;
-use crate::kernel::{Along, Geometry, Sign};
+use crate::kernel::{Along, Geometry, Seen, Sign};
 use crate::soup::Soup;
 
 /// Two facets in one plane, and how the corners of each lie to the edges of the other.
@@ -21,6 +21,8 @@ struct Facet {
     edges: Vec<u32>,
     /// Of each edge.
     ends: Vec<[u32; 2]>,
+    /// Where edge i starts.
+    corners: Vec<Seen>,
     /// The edge after each edge in its loop: corner i is where edge i starts.
     next: Vec<usize>,
     /// On which side of its edges the facet lies as it is seen.
@@ -52,7 +54,8 @@ pub(crate) fn overlap(soup: &Soup, pair: [u32; 2]) -> bool {
 }
 
 impl Overlay {
-    /// Looks at two facets; false when they are triangles and an edge of one has all of the other beyond it.
+    /// Looks at two facets; false when they have nothing in common but shared corners and a shared edge, as two triangles of
+    /// which one has the other beyond an edge.
     fn look(&mut self, soup: &Soup, pair: [u32; 2]) -> bool {
         (self.axis, _) = soup.geometry.dominant_axis(pair[0]);
         for (facet, id) in self.facets.iter_mut().zip(pair) {
@@ -108,30 +111,43 @@ impl Facet {
         self.id = id;
         self.edges.clear();
         self.ends.clear();
+        self.corners.clear();
         self.next.clear();
         self.edges.extend_from_slice(edges);
         self.ends.extend(edges.iter().map(|&e| soup.directed(e)));
+        self.corners.extend(self.ends.iter().map(|&[p, _]| soup.geometry.seen_along(p, axis)));
         self.next.extend((0..edges.len()).map(|i| soup.next_in_loop(edges, i)));
         self.inner = Some(soup.geometry.normal_sign(id, axis));
     }
 
-    /// Finds the turns; false when both are triangles and an edge has all of the other facet beyond it.
+    /// Finds the turns; false when both are triangles and an edge has all of the other facet beyond it but for its own ends.
     fn look_at(&mut self, soup: &Soup, other: &Self, axis: usize) -> bool {
         let are_triangles = self.edges.len() == 3 && other.edges.len() == 3;
         let mut turns = std::mem::take(&mut self.turns);
         turns.clear();
-        let is_beyond = |turn: &Sign| *turn != Sign::Zero && Some(*turn) != self.inner;
-        let is_apart = self.ends.iter().any(|&ends| {
-            let first = turns.len();
-            turns.extend(other.ends.iter().map(|&[p, _]| self.turn(soup, ends, p, axis)));
-            are_triangles && turns[first..].iter().all(is_beyond)
+        let is_apart = (0..self.edges.len()).any(|i| {
+            let mut is_beyond = are_triangles;
+            for j in 0..other.edges.len() {
+                let turn = self.turn(soup, i, (other, j), axis);
+                is_beyond &= match turn {
+                    Sign::Zero => self.ends[i].contains(&other.ends[j][0]),
+                    turn => Some(turn) != self.inner,
+                };
+                turns.push(turn);
+            }
+            is_beyond
         });
         self.turns = turns;
         !is_apart
     }
 
-    fn turn(&self, soup: &Soup, ends: [u32; 2], p: u32, axis: usize) -> Sign {
-        if ends.contains(&p) { Sign::Zero } else { soup.geometry.turn_in_plane(self.id, ends, p, axis) }
+    /// The turn from edge i to corner j of a facet in the same plane.
+    fn turn(&self, soup: &Soup, i: usize, (other, j): (&Self, usize), axis: usize) -> Sign {
+        if self.ends[i].contains(&other.ends[j][0]) {
+            return Sign::Zero;
+        }
+        let [a, b] = [i, self.next[i]].map(|corner| &self.corners[corner]);
+        soup.geometry.turn_in_plane(self.id, [a, b, &other.corners[j]], axis)
     }
 
     /// The turns from edge i to the ends of edge j of the other facet.
@@ -142,9 +158,8 @@ impl Facet {
 
     fn is_convex(&self, soup: &Soup, axis: usize) -> bool {
         let is_in = |turn: Sign| turn == Sign::Zero || Some(turn) == self.inner;
-        let has_all_in =
-            |&ends: &[u32; 2]| self.ends.iter().all(|&[p, _]| is_in(self.turn(soup, ends, p, axis)));
-        self.edges.len() == 3 || self.ends.iter().all(has_all_in)
+        let n = self.edges.len();
+        n == 3 || (0..n).all(|i| (0..n).all(|j| is_in(self.turn(soup, i, (self, j), axis))))
     }
 }
 
@@ -154,6 +169,12 @@ fn strictly_between(geometry: &Geometry, ends: [u32; 2], p: u32) -> bool {
     let ([a, b], at) = (ends.map(|p| geometry.position(p)), geometry.position(p));
     if (0..3).any(|k| at[k] < a[k].min(b[k]) || a[k].max(b[k]) < at[k]) {
         return false;
+    }
+    // So does a place strictly between others.
+    let length = |k: usize| (b[k] - a[k]).abs();
+    let k = (1..3).fold(0, |best, k| if length(k) > length(best) { k } else { best });
+    if a[k].min(b[k]) < at[k] && at[k] < a[k].max(b[k]) {
+        return true;
     }
     let (axis, sign) = geometry.axis_of(&geometry.direction(Along::Edge(ends)));
     let [low, high] = if sign == Sign::Positive { ends } else { [ends[1], ends[0]] };

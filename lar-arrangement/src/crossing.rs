@@ -11,7 +11,9 @@
 //!  F ∩ G   ──────●═══●───────●═══●──
 //! ```
 
+use crate::boxes::Aabb;
 use crate::kernel::{Along, Direction, Geometry, Sign, Vertex, VertexDef};
+use crate::meeting::box_of;
 use crate::soup::Soup;
 use rustc_hash::FxHashMap;
 use std::cell::OnceCell;
@@ -158,7 +160,10 @@ pub(crate) fn meet(soup: &Soup, f: u32, g: u32, scratch: &mut Scratch, out: &mut
         Position::Coplanar => return out.coplanar.push([f, g]),
         Position::Across => {}
     }
-    if classify(soup, g, f, signs_g) != Position::Across {
+    if is_touched_outside(soup, f, g, signs_f) || classify(soup, g, f, signs_g) != Position::Across {
+        return;
+    }
+    if is_touched_outside(soup, g, f, signs_g) {
         return;
     }
     let geometry = &soup.geometry;
@@ -171,6 +176,17 @@ pub(crate) fn meet(soup: &Soup, f: u32, g: u32, scratch: &mut Scratch, out: &mut
         }
     }
     overlay(soup, [f, g], axis, &scratch.traces, out);
+}
+
+/// Whether facet f has corners on the plane of g but does not cross it, and these lie where g is not. A quick test: their
+/// box against that of g; rounding is monotone.
+fn is_touched_outside(soup: &Soup, f: u32, g: u32, signs: &[Sign]) -> bool {
+    if signs.contains(&Sign::Positive) && signs.contains(&Sign::Negative) {
+        return false;
+    }
+    let corners = soup.facet_edges[f as usize].iter().zip(signs).filter(|(_, sign)| **sign == Sign::Zero);
+    let on_plane = Aabb::around(corners.map(|(&edge, _)| soup.geometry.position(soup.directed(edge)[0])));
+    !on_plane.meets(&box_of(soup, g))
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -422,4 +438,43 @@ pub(crate) fn segment_direction(geometry: &Geometry, facet: u32, other: u32) -> 
     let direction = geometry.direction(Along::Facets([facet, other]));
     let (axis, sign) = geometry.axis_of(&direction);
     (if sign == Sign::Negative { direction.opposite() } else { direction }, axis)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::soup::Placed;
+    use lar_core::{Points, Surface, TriangleMesh};
+    use proptest::prelude::*;
+
+    fn soup(corners: &[[u8; 3]]) -> Soup {
+        let mut mesh = TriangleMesh { points: Points::new(3), triangles: Vec::new() };
+        for corner in corners {
+            mesh.points.push(&corner.map(f64::from));
+        }
+        mesh.triangles = (0..corners.len() as u32 / 3).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+        let surfaces = [Surface::from_triangles("triangles", &mesh)];
+        Soup::new(&surfaces, Placed::snapped(&surfaces, |_, _| 0.0).expect("the points are finite"))
+    }
+
+    proptest! {
+        /// Corners on few places: most pairs touch in some way.
+        #[test]
+        fn triangles_are_traced_as_polygons_are(corners in prop::collection::vec(prop::array::uniform3(0u8..4), 12)) {
+            let soup = soup(&corners);
+            let n = soup.n_facets() as u32;
+            let (mut signs, mut on_line, mut found, mut expected) = Default::default();
+            for (f, g) in (0..n).flat_map(|f| (0..n).map(move |g| (f, g))).filter(|(f, g)| f != g) {
+                if classify(&soup, f, g, &mut signs) != Position::Across {
+                    continue;
+                }
+                let axis = soup.geometry.axis_of_line([f, g]);
+                trace(&soup, f, g, axis, &signs, &mut on_line, &mut expected);
+                let [a, b, c] = signs[..] else { panic!("triangles have three corners") };
+                trace_triangle(&soup, f, g, axis, [a, b, c], &mut found);
+                let key = |stops: &[Stop]| stops.iter().map(|stop| (stop.site, stop.gap)).collect::<Vec<_>>();
+                prop_assert_eq!(key(&found), key(&expected));
+            }
+        }
+    }
 }

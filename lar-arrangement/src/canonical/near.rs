@@ -9,41 +9,43 @@ const CELL: i64 = 8;
 
 /// Pairs of points within the tolerance, ascending: of facets in a pair, or of one facet. Corners of facets of one chart,
 /// or that share a clean point, are farther apart.
-///
-/// Points are put in cells, once for each power of two that is about the tolerance of some of them: expected time is linear
-/// in the points, unless many are near each other.
 pub(super) fn points(input: &Input) -> Vec<[u32; 2]> {
-    let geometry = &input.soup.geometry;
-    let points = in_question(input);
+    let at = |p: u32| input.soup.geometry.nearest_grid_point(p);
     let limit = |p: u32| input.soup.tolerances[p as usize].points().floor() as i64;
-    let is_near = |p: u32, q: u32| {
-        let (a, b) = (geometry.nearest_grid_point(p), geometry.nearest_grid_point(q));
-        let limit = limit(p).max(limit(q));
-        (0..3).all(|k| (a[k] - b[k]).abs() <= limit)
-    };
+    pairs(&in_question(input), at, limit)
+}
+
+/// Pairs of points of which no coordinate differs by more than the larger of their limits, ascending.
+///
+/// Points are put in cells, once for each power of two that is about the limit of some of them, without those of larger
+/// limits: expected time is linear in the points, unless many are near each other.
+fn pairs(points: &[u32], at: impl Fn(u32) -> [i64; 3], limit: impl Fn(u32) -> i64) -> Vec<[u32; 2]> {
     let mut classes: Vec<u32> = points.iter().map(|&p| class(limit(p))).collect();
     classes.sort_unstable();
     classes.dedup();
     let mut near = Vec::new();
     for of in classes {
-        // Points of a class, and those that are more exact.
+        let is_near = |p: u32, q: u32| {
+            let ((a, b), limit) = ((at(p), at(q)), limit(p).max(limit(q)));
+            class(limit) == of && (0..3).all(|k| (a[k] - b[k]).abs() <= limit)
+        };
         let cells = Cells { side: CELL << of, reach: 1 << of };
-        let mut last: FxHashMap<[i64; 3], u32> = FxHashMap::default();
         let members: Vec<u32> = points.iter().copied().filter(|&p| class(limit(p)) <= of).collect();
-        let mut before = vec![u32::MAX; members.len()];
-        for (&p, i) in members.iter().zip(0u32..) {
-            let at = geometry.nearest_grid_point(p);
-            cells.around(at, |cell| {
-                let mut next = last.get(&cell).copied().unwrap_or(u32::MAX);
-                while next != u32::MAX {
-                    let q = members[next as usize];
-                    if class(limit(p).max(limit(q))) == of && is_near(p, q) {
+        // The last member in a cell, and the one before each.
+        let mut last: FxHashMap<[i64; 3], u32> = FxHashMap::default();
+        let mut before: Vec<Option<u32>> = Vec::with_capacity(members.len());
+        for (&p, i) in members.iter().zip(0..) {
+            cells.around(at(p), |cell| {
+                let mut next = last.get(&cell).copied();
+                while let Some(j) = next {
+                    let q = members[j as usize];
+                    if is_near(p, q) {
                         near.push([q.min(p), q.max(p)]);
                     }
-                    next = before[next as usize];
+                    next = before[j as usize];
                 }
             });
-            before[i as usize] = last.insert(cells.of(at), i).unwrap_or(u32::MAX);
+            before.push(last.insert(cells.of(at(p)), i));
         }
     }
     near.sort_unstable();
@@ -71,6 +73,7 @@ fn class(distance: i64) -> u32 {
 /// A grid of cells.
 struct Cells {
     side: i64,
+    /// At most as long as a side.
     reach: i64,
 }
 
@@ -89,6 +92,33 @@ impl Cells {
                     visit([x, y, z]);
                 }
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn all_near_pairs_are_found(
+            points in prop::collection::vec((prop::array::uniform3(-40i64..40), 0usize..4), 0..60),
+            spread in 1i64..5,
+        ) {
+            let at = |p: u32| points[p as usize].0.map(|x| x * spread);
+            let limit = |p: u32| [0, 1, 5, 48][points[p as usize].1];
+            let all: Vec<u32> = (0..points.len() as u32).collect();
+            let is_near = |p: u32, q: u32| {
+                (0..3).all(|k| (at(p)[k] - at(q)[k]).abs() <= limit(p).max(limit(q)))
+            };
+            let expected: Vec<[u32; 2]> = all
+                .iter()
+                .flat_map(|&p| (p + 1..points.len() as u32).map(move |q| [p, q]))
+                .filter(|&[p, q]| is_near(p, q))
+                .collect();
+            prop_assert_eq!(pairs(&all, at, limit), expected);
         }
     }
 }

@@ -43,8 +43,10 @@ struct Outline {
 impl Scan {
     pub(crate) fn new(input: &Input, course: &Course) -> Result<Self, Cancelled> {
         let outlines = Outlines::new(input);
-        let is_coplanar = |&[f, g]: &[u32; 2]| {
-            !outlines.of(f).is_across(outlines.of(g)) && are_nearly_coplanar(input, [f, g])
+        let is_coplanar = |pair: &[u32; 2]| {
+            let [f, g] = pair.map(|f| outlines.number[f as usize] as usize);
+            let is_across = outlines.outlines[f].is_across(&outlines.outlines[g]);
+            !is_across && are_nearly_coplanar(input, *pair, |f| *outlines.shape(f))
         };
         let (n_chunks, range) = parallel::chunks(input.pairs.len(), PAIRS_A_CHUNK);
         let mut coplanar = course.map(n_chunks, |chunk| {
@@ -67,6 +69,7 @@ impl Scan {
 struct Outlines {
     number: Vec<u32>,
     outlines: Vec<Outline>,
+    shapes: Vec<Shape>,
 }
 
 impl Outlines {
@@ -79,12 +82,13 @@ impl Outlines {
                 paired.push(facet);
             }
         }
-        let outlines = parallel::map_light(paired.len(), |i| Outline::of(&Shape::of(input, paired[i])));
-        Self { number, outlines }
+        let shapes = parallel::map_light(paired.len(), |i| Shape::of(input, paired[i]));
+        let outlines = parallel::map_light(shapes.len(), |i| Outline::of(&shapes[i]));
+        Self { number, outlines, shapes }
     }
 
-    fn of(&self, facet: u32) -> &Outline {
-        &self.outlines[self.number[facet as usize] as usize]
+    fn shape(&self, facet: u32) -> &Shape {
+        &self.shapes[self.number[facet as usize] as usize]
     }
 }
 
@@ -95,7 +99,7 @@ fn coplanar_neighbours(input: &Input, f: u32, largest: f64, found: &mut Vec<[u32
     for (side, code) in edges.iter().enumerate().filter(|(_, code)| code.is_multiple_of(2)) {
         let Some(pair) = input.neighbours_at(code / 2) else { continue };
         let is_bent = triangle.as_ref().is_some_and(|t| t.is_bent(input, side, pair[1], largest));
-        if !is_bent && are_nearly_coplanar(input, pair) {
+        if !is_bent && are_nearly_coplanar(input, pair, |f| Shape::of(input, f)) {
             found.push(pair);
         }
     }
@@ -139,12 +143,12 @@ fn size(v: [f64; 3]) -> f64 {
     v.iter().map(|x| x.abs()).sum()
 }
 
-fn are_nearly_coplanar(input: &Input, [f, g]: [u32; 2]) -> bool {
+fn are_nearly_coplanar(input: &Input, [f, g]: [u32; 2], shape: impl Fn(u32) -> Shape) -> bool {
     let polygons = [f, g].map(|f| input.soup.facet_polygon[f as usize]);
     if polygons[0] == polygons[1] || polygons.iter().any(|&p| !input.soup.polygon_flat[p as usize]) {
         return false;
     }
-    let (a, b) = (&Shape::of(input, f), &Shape::of(input, g));
+    let (a, b) = (&shape(f), &shape(g));
     let (wide, narrow, facet) = if a.width >= b.width { (a, b, g) } else { (b, a, f) };
     wide.nearly_holds(narrow, input.corners(facet).map(|p| input.soup.geometry.position(p)))
 }

@@ -69,7 +69,7 @@ impl Geometry {
     }
 
     /// Of an edge at right angles to the axis.
-    fn coordinate_of_edge(&self, ends: [u32; 2], axis: usize) -> Option<[i128; 2]> {
+    pub(super) fn coordinate_of_edge(&self, ends: [u32; 2], axis: usize) -> Option<[i128; 2]> {
         let [p, q] = ends.map(|p| self.coordinate_of_point(p, axis));
         p.filter(|_| p == q)
     }

@@ -177,7 +177,20 @@ impl Geometry {
     }
 
     fn order_in<const W: usize>(&self, a: &VertexDef, b: &VertexDef, axis: usize) -> Ordering {
-        self.exact_point::<W>(a).cmp_coordinate(&self.exact_point(b), axis)
+        let ([x, v], [y, w]) = (self.exact_coordinate::<W>(a, axis), self.exact_coordinate::<W>(b, axis));
+        (x * w).cmp(&(y * v))
+    }
+
+    /// One coordinate: numerator and positive denominator.
+    fn exact_coordinate<const W: usize>(&self, def: &VertexDef, axis: usize) -> [Int<W>; 2] {
+        if let VertexDef::EdgePlane { ends, support } = *def
+            && let [Some(p), Some(q)] = ends.map(|p| self.grid_point(p))
+            && let Some(plane) = self.grid_plane(support)
+        {
+            return HPointOf::coordinate_on_grid_edge([p[axis], q[axis]], [plane.side(p), plane.side(q)]);
+        }
+        let point = self.exact_point::<W>(def);
+        [point.x[axis], point.w]
     }
 
     fn equality_in<const W: usize>(&self, a: &VertexDef, b: &VertexDef) -> bool {

@@ -335,6 +335,11 @@ impl Geometry {
         &self.close_planes[plane as usize]
     }
 
+    #[cfg(test)]
+    pub(super) fn n_canonical_planes(&self) -> u32 {
+        self.canonical.planes.len() as u32
+    }
+
     /// Coordinates of a rational point in about 106 bits.
     pub(super) fn close_position(&self, p: u32) -> Option<&[Double; 3]> {
         self.rational_entry(p).map(|entry| &self.close_positions[entry])

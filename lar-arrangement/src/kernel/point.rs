@@ -145,10 +145,15 @@ impl<const W: usize> HPointOf<W> {
     /// The point where the line through the grid points p and q meets the plane; they must not lie on the same side
     /// of it, nor both on it.
     pub(crate) fn on_grid_edge(p: [i64; 3], q: [i64; 3], plane: &Plane) -> Self {
-        let (sp, sq) = (plane.side(p), plane.side(q));
-        let (fp, fq) = (Int::from(sp), Int::from(sq));
-        let x = std::array::from_fn(|k| Int::from(q[k]) * fp - Int::from(p[k]) * fq);
-        Self { x, w: Int::from(sp - sq) }.normalised()
+        let sides = [plane.side(p), plane.side(q)];
+        let coordinates: [_; 3] = std::array::from_fn(|k| Self::coordinate_on_grid_edge([p[k], q[k]], sides));
+        Self { x: coordinates.map(|c| c[0]), w: coordinates[0][1] }
+    }
+
+    /// A coordinate of that point from those of the ends and the sides that they are on: numerator and denominator.
+    pub(crate) fn coordinate_on_grid_edge([p, q]: [i64; 2], [sp, sq]: [i128; 2]) -> [Int<W>; 2] {
+        let (x, w) = (Int::from(q) * Int::from(sp) - Int::from(p) * Int::from(sq), Int::from(sp - sq));
+        if sp < sq { [-x, -w] } else { [x, w] }
     }
 
     /// As `on_grid_edge`, for any two points.

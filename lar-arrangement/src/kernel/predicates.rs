@@ -89,48 +89,6 @@ impl Geometry {
         }
     }
 
-    /// Orientation of a → b → p, all in the plane of a facet, seen along −axis.
-    pub(crate) fn turn_in_plane(&self, facet: u32, ends: [u32; 2], p: u32, axis: usize) -> Sign {
-        self.near_turn(ends, p, axis).unwrap_or_else(|| {
-            // On another shared plane through both ends.
-            let is_beside = |plane: u32| {
-                let other = self.first_on_plane(plane);
-                self.is_defined_on(p, plane) && other.is_some_and(|other| self.is_across(other, facet))
-            };
-            let is_on_edge = self.planes_of_edge(ends).any(is_beside);
-            if is_on_edge { Sign::Zero } else { self.turn_exactly(ends, p, axis) }
-        })
-    }
-
-    /// Orientation of a → b → p seen along −axis.
-    pub(crate) fn turn_to(&self, ends: [u32; 2], p: u32, axis: usize) -> Sign {
-        self.near_turn(ends, p, axis).unwrap_or_else(|| self.turn_exactly(ends, p, axis))
-    }
-
-    /// The same, where points are on the grid or the turn is beyond doubt.
-    #[inline]
-    fn near_turn(&self, ends: [u32; 2], p: u32, axis: usize) -> Option<Sign> {
-        let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-        if let ([Some(a), Some(b)], Some(p)) = (ends.map(|p| self.grid_point(p)), self.grid_point(p)) {
-            // Products of two differences of 42 bits.
-            let product = |x: i64, y: i64| i128::from(x) * i128::from(y);
-            let left = product(b[u] - a[u], p[v] - a[v]);
-            return Some(left.cmp(&product(b[v] - a[v], p[u] - a[u])).into());
-        }
-        let ([a, b], c) = (ends.map(|p| self.position(p)), self.position(p));
-        let d = [b[u] - a[u], b[v] - a[v], c[u] - a[u], c[v] - a[v]];
-        let (left, right) = (d[0] * d[3], d[1] * d[2]);
-        // Each difference is off by two positions and its own rounding, at most 2^-11.
-        let slack = (d.iter().map(|x| x.abs()).sum::<f64>() + 1.0) * 4.0 * ROUNDING;
-        ((left - right).abs() > slack + (left.abs() + right.abs()) * 2f64.powi(-50))
-            .then(|| sign_of(left - right))
-    }
-
-    fn turn_exactly(&self, ends: [u32; 2], p: u32, axis: usize) -> Sign {
-        self.counters.count();
-        self.exact_side(&VertexDef::Point(p), Support::Vertical { ends, axis: axis as u8 })
-    }
-
     /// Order of two input points along a coordinate axis.
     pub(crate) fn cmp_points(&self, p: u32, q: u32, axis: usize) -> Ordering {
         self.cmp_coordinate(&self.point_vertex(p), &self.point_vertex(q), axis)
@@ -244,8 +202,23 @@ impl Geometry {
         if d.float[axis].abs() > d.error || d.error == 0.0 {
             return sign_of(d.float[axis]);
         }
+        if self.is_made_upright(d, axis) {
+            return Sign::Zero;
+        }
         self.counters.count();
         self.exact_component(d, axis)
+    }
+
+    /// Whether a direction is at right angles to an axis by its definition: both ends of the edge lie on a plane that is, or
+    /// both products of components of the normals are zero, which rounding keeps.
+    fn is_made_upright(&self, d: &Direction, axis: usize) -> bool {
+        match d.along {
+            Along::Edge(ends) => self.coordinate_of_edge(ends, axis).is_some(),
+            Along::Facets(facets) => {
+                let ([m, n], u, v) = (facets.map(|f| self.normal(f)), (axis + 1) % 3, (axis + 2) % 3);
+                (m[u] == 0.0 || n[v] == 0.0) && (m[v] == 0.0 || n[u] == 0.0)
+            }
+        }
     }
 
     /// Sign of det(n1, n2, d): positive when turning by less than half a turn about d leads from n1 to n2.
@@ -262,6 +235,10 @@ impl Geometry {
         }
         if det.abs() > magnitude * 2f64.powi(-49) + reach * d.error * 1.5 {
             return Sign::from(det.signum() as i8);
+        }
+        // Normals along one axis: rounding keeps zeros.
+        if reach == 0.0 {
+            return Sign::Zero;
         }
         self.counters.count();
         self.exact_turn_about(Support::Facet(f), Support::Facet(g), d)
@@ -418,7 +395,7 @@ fn longest_axis(v: [f64; 3]) -> usize {
     (1..3).fold(0, |best, k| if v[k].abs() > v[best].abs() { k } else { best })
 }
 
-fn sign_of(x: f64) -> Sign {
+pub(super) fn sign_of(x: f64) -> Sign {
     if x > 0.0 {
         Sign::Positive
     } else if x < 0.0 {

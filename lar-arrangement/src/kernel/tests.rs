@@ -197,28 +197,12 @@ impl Scene {
     }
 
     fn push_supports(&mut self, random: &mut Random, mixed: bool) {
+        for plane in 0..self.geometry.n_canonical_planes() {
+            let corners = self.on_plane(plane);
+            corners.windows(3).for_each(|base| self.push_facet([base[0], base[1], base[2]], mixed));
+        }
         for _ in 0..20 {
-            let base = [0; 3].map(|_| random.below(Self::POINTS) as u32);
-            let (n, _) = self.plane_through(base);
-            let collinear = n == [IBig::ZERO; 3];
-            assert_eq!(self.geometry.are_collinear(base), collinear);
-            if self.n_facets < 8 && !collinear {
-                let shared =
-                    (0..3).find(|&plane| base.iter().all(|&p| self.geometry.is_defined_on(p, plane)));
-                match shared {
-                    Some(plane) => {
-                        let (axis, up) = self.geometry.dominant_axis_of_plane(plane);
-                        self.geometry.push_facet_on(base, plane, (n[axis] > IBig::ZERO) != up);
-                    }
-                    None if mixed || base.iter().all(|&p| self.geometry.grid_point(p).is_some()) => {
-                        self.geometry.push_facet(base);
-                    }
-                    None => continue,
-                }
-                self.bases.push(base);
-                self.supports.push(Support::Facet(self.n_facets));
-                self.n_facets += 1;
-            }
+            self.push_facet([0; 3].map(|_| random.below(Self::POINTS) as u32), mixed);
         }
         for _ in 0..4 {
             let ends = [0; 2].map(|_| random.below(Self::POINTS) as u32);
@@ -227,6 +211,35 @@ impl Scene {
                 self.supports.push(support);
             }
         }
+    }
+
+    /// Adds a facet on a shared plane or on one of its own, unless there are enough or the corners do not allow for it.
+    fn push_facet(&mut self, base: [u32; 3], mixed: bool) {
+        let (n, _) = self.plane_through(base);
+        let collinear = n == [IBig::ZERO; 3];
+        assert_eq!(self.geometry.are_collinear(base), collinear);
+        if self.n_facets >= 8 || collinear {
+            return;
+        }
+        let holds_all = |&plane: &u32| base.iter().all(|&p| self.geometry.is_defined_on(p, plane));
+        match (0..self.geometry.n_canonical_planes()).find(holds_all) {
+            Some(plane) => {
+                let (axis, up) = self.geometry.dominant_axis_of_plane(plane);
+                self.geometry.push_facet_on(base, plane, (n[axis] > IBig::ZERO) != up);
+            }
+            None if mixed || base.iter().all(|&p| self.geometry.grid_point(p).is_some()) => {
+                self.geometry.push_facet(base);
+            }
+            None => return,
+        }
+        self.bases.push(base);
+        self.supports.push(Support::Facet(self.n_facets));
+        self.n_facets += 1;
+    }
+
+    /// The points on a canonical plane.
+    fn on_plane(&self, plane: u32) -> Vec<u32> {
+        (0..Self::POINTS as u32).filter(|&p| self.geometry.is_defined_on(p, plane)).collect()
     }
 
     /// n and d of the plane n · x = d, from the definition of the support.
@@ -267,6 +280,8 @@ impl Scene {
                 self.push_edge_vertex([0; 2].map(|_| random.below(Self::POINTS) as u32), support);
             }
         }
+        self.push_crossings();
+        self.push_points_of_lines();
         for _ in 0..8 {
             if self.n_facets > 2 {
                 self.push_facets_vertex([0; 3].map(|_| random.below(self.n_facets as usize) as u32));
@@ -274,23 +289,62 @@ impl Scene {
         }
     }
 
-    /// p + s (q − p), s = side(p) / (side(p) − side(q)).
+    /// Where two edges in one canonical plane cross.
+    fn push_crossings(&mut self) {
+        for plane in 0..self.geometry.n_canonical_planes() {
+            let on_plane = self.on_plane(plane);
+            let (axis, _) = self.geometry.dominant_axis_of_plane(plane);
+            for (i, &b) in on_plane.iter().enumerate().skip(1) {
+                let edge = [on_plane[i - 1], b];
+                for other in on_plane[i + 1..].windows(2).map(|w| [w[0], w[1]]) {
+                    self.push_crossing(edge, other, axis);
+                }
+            }
+        }
+    }
+
+    /// Where edges on two canonical planes meet the planes of facets.
+    fn push_points_of_lines(&mut self) {
+        for (p, q) in (0..Self::POINTS as u32).flat_map(|q| (0..q).map(move |p| (p, q))) {
+            if self.geometry.planes_of_edge([p, q]).count() > 1 {
+                (0..self.n_facets).for_each(|f| self.push_edge_vertex([p, q], Support::Facet(f)));
+            }
+        }
+    }
+
+    fn push_crossing(&mut self, edge: [u32; 2], other: [u32; 2], axis: usize) {
+        let upright = |ends: [u32; 2]| Support::Vertical { ends, axis: axis as u8 };
+        let crosses = |ends: [u32; 2], support: Support| {
+            let [a, b] = ends.map(|p| self.side(&self.point(p), support));
+            a.times(b) == Sign::Negative
+        };
+        if crosses(edge, upright(other)) && crosses(other, upright(edge)) {
+            let def = self.geometry.crossing_definition(edge, other, axis);
+            self.push_on_edge(edge, upright(other), vec![def]);
+        }
+    }
+
     fn push_edge_vertex(&mut self, ends: [u32; 2], support: Support) {
-        let [p, q] = ends.map(|p| self.point(p));
-        if self.side(&p, support).times(self.side(&q, support)) == Sign::Negative {
-            let (n, d) = self.plane(support);
-            let (at_p, at_q) = (dot(&n, &p.x) - &d * &p.w, dot(&n, &q.x) - &d * &q.w);
-            let w = &at_p * &q.w - &at_q * &p.w;
-            let x = std::array::from_fn(|k| &at_p * &q.x[k] - &at_q * &p.x[k]);
-            let exact = Exact::new(x, w);
+        let [p, q] = ends.map(|p| self.side(&self.point(p), support));
+        if p.times(q) == Sign::Negative {
             let mut defs = vec![VertexDef::EdgePlane { ends, support }];
             if let Support::Facet(facet) = support {
                 defs.push(self.geometry.edge_definition(ends, facet));
                 defs.dedup();
             }
-            self.vertices
-                .extend(defs.into_iter().map(|def| (self.geometry.vertex_on_edge(def), exact.clone())));
+            self.push_on_edge(ends, support, defs);
         }
+    }
+
+    /// p + s (q − p), s = side(p) / (side(p) − side(q)).
+    fn push_on_edge(&mut self, ends: [u32; 2], support: Support, defs: Vec<VertexDef>) {
+        let [p, q] = ends.map(|p| self.point(p));
+        let (n, d) = self.plane(support);
+        let (at_p, at_q) = (dot(&n, &p.x) - &d * &p.w, dot(&n, &q.x) - &d * &q.w);
+        let w = &at_p * &q.w - &at_q * &p.w;
+        let x = std::array::from_fn(|k| &at_p * &q.x[k] - &at_q * &p.x[k]);
+        let exact = Exact::new(x, w);
+        self.vertices.extend(defs.into_iter().map(|def| (self.geometry.vertex_on_edge(def), exact.clone())));
     }
 
     /// Cramer's rule, column by column.
@@ -343,12 +397,13 @@ impl Scene {
 }
 
 /// Runs `test` on `n` scenes and returns the number of comparisons that it reports.
-fn on_scenes(n: u64, test: impl Fn(&Scene, u64) -> usize) -> usize {
+fn on_scenes(n: u64, mut test: impl FnMut(&Scene, u64) -> usize) -> usize {
     (0..n).map(|seed| test(&Scene::new(seed), seed)).sum()
 }
 
 #[test]
 fn definitions_give_the_exact_points_and_round_correctly() {
+    let mut n_on_planes = 0;
     let compared = on_scenes(50_000, |scene, seed| {
         for (vertex, exact) in &scene.vertices {
             let found = scene.geometry.exact_point::<23>(&vertex.def);
@@ -359,9 +414,11 @@ fn definitions_give_the_exact_points_and_round_correctly() {
                 check_rounding(&exact.x[k], &exact.w, vertex.at[k], seed);
                 check_crossing(&scene.geometry, vertex, exact, k, seed);
             }
+            n_on_planes += usize::from(vertex.is_on_edge && matches!(vertex.def, VertexDef::Facets(_)));
         }
         scene.vertices.len()
     });
+    assert!(n_on_planes > 5_000, "only {n_on_planes} vertices on edges are defined by canonical planes");
     assert!(compared > 500_000, "only {compared} vertices");
 }
 
