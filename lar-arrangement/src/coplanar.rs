@@ -78,8 +78,8 @@ impl Overlay {
         }
         let (e, h) = (f.edges[i] / 2, g.edges[j] / 2);
         if of_h[0].times(of_h[1]) == Sign::Negative && of_e[0].times(of_e[1]) == Sign::Negative {
-            let [ends, others] = [e, h].map(|e| soup.edges[e as usize]);
-            let def = geometry.crossing_definition(ends, others, self.axis);
+            let ends = [e, h].map(|e| soup.edges[e as usize]);
+            let def = geometry.crossing_definition(ends, f.id, self.axis);
             let v = out.edge_vertex(geometry, def, |def| geometry.vertex_on_edge(def));
             out.splits.extend([(e, v), (h, v)]);
             return;

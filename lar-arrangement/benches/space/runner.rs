@@ -65,7 +65,8 @@ impl Request {
         }
     }
 
-    /// Times are medians; memory is what the first run adds to the process at its peak.
+    /// Times are medians, without the first run, in memory touched for the first time, when there are several; memory is what
+    /// that run adds to the process at its peak.
     fn measure(&self) -> Result<Value> {
         let job = Job::new(self.workload, self.threads);
         let (mut cpu, mut wall, mut stats) = (Vec::new(), Vec::new(), Vec::new());
@@ -153,7 +154,7 @@ fn stages(runs: &[Stats]) -> Value {
 }
 
 fn median(values: &[f64]) -> f64 {
-    let mut sorted = values.to_vec();
+    let mut sorted = values[usize::from(values.len() > 1)..].to_vec();
     sorted.sort_by(f64::total_cmp);
     let n = sorted.len();
     f64::midpoint(sorted[(n - 1) / 2], sorted[n / 2])

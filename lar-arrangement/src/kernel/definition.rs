@@ -17,11 +17,23 @@ impl Geometry {
         })
     }
 
-    /// The definition of the point where two edges cross, both in one plane, which is not parallel to the axis.
-    pub(crate) fn crossing_definition(&self, ends: [u32; 2], others: [u32; 2], axis: usize) -> VertexDef {
-        self.on_three_planes(ends, self.planes_of_edge(others)).unwrap_or_else(|| {
-            let support = Support::Vertical { ends: others, axis: axis as u8 };
-            VertexDef::EdgePlane { ends, support }
+    /// The definition of the point where two edges in the plane of a facet, which is not parallel to the axis, cross.
+    pub(crate) fn crossing_definition(&self, edges: [[u32; 2]; 2], facet: u32, axis: usize) -> VertexDef {
+        let [e, h] = edges;
+        if let Some(def) = self.on_three_planes(e, self.planes_of_edge(h)) {
+            return def;
+        }
+        // As where one of them meets another shared plane that holds the other.
+        let beside = |edge: [u32; 2]| {
+            let others = self.planes_of_edge(edge).filter_map(|plane| self.first_on_plane(plane));
+            others.into_iter().find(|&other| self.is_across(other, facet))
+        };
+        let on_plane = |ends: [u32; 2], other: [u32; 2]| {
+            beside(other).map(|f| VertexDef::EdgePlane { ends, support: Support::Facet(f) })
+        };
+        on_plane(e, h).or_else(|| on_plane(h, e)).unwrap_or_else(|| {
+            let support = Support::Vertical { ends: h, axis: axis as u8 };
+            VertexDef::EdgePlane { ends: e, support }
         })
     }
 
@@ -121,11 +133,11 @@ impl Geometry {
     fn meet_in_one_point(&self, facets: [u32; 3]) -> bool {
         let [l, m, n] = facets.map(|f| self.normal(f));
         let (mut det, mut magnitude) = (0.0, 0.0);
-        for k in 0..3 {
+        for (k, n) in n.into_iter().enumerate() {
             let (u, v) = ((k + 1) % 3, (k + 2) % 3);
             let (left, right) = (l[u] * m[v], l[v] * m[u]);
-            det += (left - right) * n[k];
-            magnitude += (left.abs() + right.abs()) * n[k].abs();
+            det += (left - right) * n;
+            magnitude += (left.abs() + right.abs()) * n.abs();
         }
         // Three components off by 2^-52 each and at most six roundings of 2^-53 in a term.
         det.abs() > magnitude * 2f64.powi(-48)

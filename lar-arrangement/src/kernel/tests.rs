@@ -293,11 +293,11 @@ impl Scene {
     fn push_crossings(&mut self) {
         for plane in 0..self.geometry.n_canonical_planes() {
             let on_plane = self.on_plane(plane);
-            let (axis, _) = self.geometry.dominant_axis_of_plane(plane);
+            let Some(facet) = self.geometry.first_on_plane(plane) else { continue };
             for (i, &b) in on_plane.iter().enumerate().skip(1) {
                 let edge = [on_plane[i - 1], b];
                 for other in on_plane[i + 1..].windows(2).map(|w| [w[0], w[1]]) {
-                    self.push_crossing(edge, other, axis);
+                    self.push_crossing(edge, other, facet);
                 }
             }
         }
@@ -312,14 +312,15 @@ impl Scene {
         }
     }
 
-    fn push_crossing(&mut self, edge: [u32; 2], other: [u32; 2], axis: usize) {
+    fn push_crossing(&mut self, edge: [u32; 2], other: [u32; 2], facet: u32) {
+        let (axis, _) = self.geometry.dominant_axis(facet);
         let upright = |ends: [u32; 2]| Support::Vertical { ends, axis: axis as u8 };
         let crosses = |ends: [u32; 2], support: Support| {
             let [a, b] = ends.map(|p| self.side(&self.point(p), support));
             a.times(b) == Sign::Negative
         };
         if crosses(edge, upright(other)) && crosses(other, upright(edge)) {
-            let def = self.geometry.crossing_definition(edge, other, axis);
+            let def = self.geometry.crossing_definition([edge, other], facet, axis);
             self.push_on_edge(edge, upright(other), vec![def]);
         }
     }

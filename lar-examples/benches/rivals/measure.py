@@ -11,8 +11,9 @@ def kilobytes(field):
 
 def measure(operation, seconds=0.0, prepare=tuple):
     """Runs the operation once, and again until some seconds have passed; what the last run returns, and the costs:
-    medians of the times, and the bytes that the first run added to the process at its peak. What `prepare` returns is
-    passed to each run, and takes no part in the times."""
+    medians of the times, without the first run, in memory touched for the first time, when there are several, and the
+    bytes that this added to the process at its peak. What `prepare` returns is passed to each run, and takes no part in
+    the times."""
     arguments = prepare()
     with open("/proc/self/clear_refs", "w") as refs:
         refs.write("5")
@@ -25,5 +26,10 @@ def measure(operation, seconds=0.0, prepare=tuple):
         wall.append(time.perf_counter() - since)
         memory = memory or 1024 * (kilobytes("VmHWM:") - before)
         if time.perf_counter() - start >= seconds:
-            return result, {"cpu": statistics.median(cpu), "wall": statistics.median(wall), "memory": memory}
+            times = {"cpu": median(cpu), "wall": median(wall)}
+            return result, {**times, "memory": memory}
         arguments = prepare()
+
+
+def median(values):
+    return statistics.median(values[1:] or values)

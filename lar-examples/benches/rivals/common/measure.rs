@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 /// What the runs of an operation took.
 pub struct Cost {
-    /// Medians.
+    /// Medians, without the first run, in memory touched for the first time, when there are several.
     pub cpu: f64,
     pub wall: f64,
     /// Bytes that the first run added to the process at its peak.
@@ -37,6 +37,9 @@ pub fn measure<T>(
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
+    if values.len() > 1 {
+        values.remove(0);
+    }
     values.sort_by(f64::total_cmp);
     let n = values.len();
     f64::midpoint(values[(n - 1) / 2], values[n / 2])

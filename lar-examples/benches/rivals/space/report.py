@@ -192,9 +192,9 @@ Written by `lar-examples/benches/rivals/space.py DIRECTORY`, which fetches the o
 by turns on the same arrays: {harness.machine()}.
 
 Milliseconds of the operation alone, arrays in and arrays out, each run in a process of its own that may use one
-processor, or two; medians of 5 runs on one, of 3 on two, and within a run of as many repetitions as are begun in 1 s,
-at most 25: all but the largest are measured in memory that the process has touched before. *lar* has arranged three cubes
-first, which starts its threads
+processor, or two; medians of 5 runs on one, of 3 on two, and within a run of as many repetitions as are begun in 2 s,
+at most 25, without the first: what takes less than 2 s is measured in memory that the process has touched before. *lar*
+has arranged three cubes first, which starts its threads
 (¹: over {harness.LONG:.0f} s, run once; *time*: given up; *fails*: stops with an error; –: not tried). ✗: area, volume
 or number of cells differ from ours. *lar* is given triangles as the others are, and
 keeps freed memory as the command `lar` does (mimalloc; with the system's allocator it takes up to a quarter longer).
