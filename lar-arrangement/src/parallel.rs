@@ -33,7 +33,6 @@ pub(crate) struct Team {
 static KEPT: Mutex<Option<Arc<ThreadPool>>> = Mutex::new(None);
 
 /// A step that handles fewer things (segments, pairs, edges) than this takes no longer on one thread.
-#[cfg(feature = "rayon")]
 const WORTH_THREADS: usize = 1 << 15;
 
 impl Team {
@@ -326,8 +325,13 @@ pub(crate) fn each_chunk<T: Send>(items: &mut [T], f: impl Fn(usize, &mut [T]) +
 /// The items of some lists, list after list.
 pub(crate) fn concat<T: Copy + Default + Send + Sync>(lists: &[Vec<T>]) -> Vec<T> {
     let mut all = vec![T::default(); lists.iter().map(Vec::len).sum()];
-    let parts = cut(&mut all, lists.iter().map(Vec::len));
-    each(parts.into_iter().zip(lists).collect(), |(part, list)| part.copy_from_slice(list));
+    let parts = cut(&mut all, lists.iter().map(Vec::len)).into_iter().zip(lists);
+    let copy = |(part, list): (&mut [T], &Vec<T>)| part.copy_from_slice(list);
+    if lists.iter().map(Vec::len).sum::<usize>() < WORTH_THREADS {
+        parts.for_each(copy);
+    } else {
+        each(parts.collect(), copy);
+    }
     all
 }
 

@@ -87,15 +87,23 @@ impl<'a> Numbering<'a> {
     fn unnumbered(parts: &Parts<'a>, cuts: &'a Cuts, n_vertices: usize) -> Self {
         let soup = parts.soup;
         let pieces = || parts.fragments.iter().flat_map(|part| &part.pieces);
-        let n_points = soup.geometry.n_points() as u32;
-        let between_points = pieces().map(ends_of).filter(|ends| ends[1] < n_points);
-        let input_edges = soup.edges_between(between_points);
-        let members = parts.groups.members.indices().iter().flat_map(|&f| &soup.facet_edges[f as usize]);
         let mut is_border = vec![false; soup.edges.len()];
-        members.for_each(|&code| is_border[(code / 2) as usize] = true);
-        pieces()
-            .filter_map(|piece| input_edges.get(&ends_of(piece)))
-            .for_each(|&e| is_border[e as usize] = true);
+        let mut input_edges = FxHashMap::default();
+        for &code in parts.groups.members.indices().iter().flat_map(|&f| &soup.facet_edges[f as usize]) {
+            is_border[(code / 2) as usize] = true;
+            input_edges.insert(soup.edges[(code / 2) as usize], code / 2);
+        }
+        // Other edges that a piece may be are looked for among all: such pieces are rare.
+        let n_points = soup.geometry.n_points() as u32;
+        let is_other = |ends: &[u32; 2]| ends[1] < n_points && !input_edges.contains_key(ends);
+        let others: Vec<[u32; 2]> = pieces().map(ends_of).filter(is_other).collect();
+        let found = soup.edges_between(others.iter().copied());
+        for ends in others {
+            if let Some(&edge) = found.get(&ends) {
+                is_border[edge as usize] = true;
+                input_edges.insert(ends, edge);
+            }
+        }
         let border = parallel::select(is_border.len(), |edge| is_border[edge as usize]);
         let mut whole = parallel::zeros(soup.edges.len());
         border.iter().for_each(|&edge| whole[edge as usize] = NOT_SEEN);
