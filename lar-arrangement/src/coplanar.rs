@@ -2,7 +2,7 @@
 //! is fragmented as one.
 
 use crate::crossing::Contacts;
-use crate::kernel::{Along, Geometry, Seen, Sign};
+use crate::kernel::{Along, Geometry, Seen, Sign, longest_axis};
 use crate::soup::Soup;
 
 /// Two facets in one plane, and how the corners of each lie to the edges of the other.
@@ -23,7 +23,7 @@ struct Facet {
     ends: Vec<[u32; 2]>,
     /// Where edge i starts.
     corners: Vec<Seen>,
-    /// The edge after each edge in its loop: corner i is where edge i starts.
+    /// The edge after each edge in its loop.
     next: Vec<usize>,
     /// On which side of its edges the facet lies as it is seen.
     inner: Option<Sign>,
@@ -48,8 +48,7 @@ pub(crate) fn meet(soup: &Soup, pair: [u32; 2], overlay: &mut Overlay, out: &mut
 }
 
 /// Whether the insides of two facets in one plane (may) overlap.
-pub(crate) fn overlap(soup: &Soup, pair: [u32; 2]) -> bool {
-    let mut overlay = Overlay::default();
+pub(crate) fn overlap(soup: &Soup, pair: [u32; 2], overlay: &mut Overlay) -> bool {
     overlay.look(soup, pair) && overlay.may_overlap(soup)
 }
 
@@ -171,8 +170,7 @@ fn strictly_between(geometry: &Geometry, ends: [u32; 2], p: u32) -> bool {
         return false;
     }
     // So does a place strictly between others.
-    let length = |k: usize| (b[k] - a[k]).abs();
-    let k = (1..3).fold(0, |best, k| if length(k) > length(best) { k } else { best });
+    let k = longest_axis(std::array::from_fn(|k| b[k] - a[k]));
     if a[k].min(b[k]) < at[k] && at[k] < a[k].max(b[k]) {
         return true;
     }

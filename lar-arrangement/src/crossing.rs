@@ -128,8 +128,9 @@ impl Stop {
         }
     }
 
-    fn vertex(&self, soup: &Soup) -> &Vertex {
-        self.vertex.get_or_init(|| soup.geometry.vertex_on_edge(self.definition(soup)))
+    /// The vertex, from the definition.
+    fn vertex(&self, geometry: &Geometry, def: VertexDef) -> &Vertex {
+        self.vertex.get_or_init(|| geometry.vertex_on_edge(def))
     }
 
     /// Order along `axis`, exactly.
@@ -137,10 +138,11 @@ impl Stop {
         if (self.at - other.at).abs() > self.error + other.error {
             return self.at.total_cmp(&other.at);
         }
-        if self.definition(soup) == other.definition(soup) {
+        let (a, b, geometry) = (self.definition(soup), other.definition(soup), &soup.geometry);
+        if a == b {
             return Ordering::Equal;
         }
-        soup.geometry.cmp_coordinate(self.vertex(soup), other.vertex(soup), axis)
+        geometry.cmp_coordinate(self.vertex(geometry, a), other.vertex(geometry, b), axis)
     }
 }
 
@@ -317,7 +319,7 @@ fn edge_over_gap(
         return None;
     }
     let geometry = &soup.geometry;
-    let (before, after) = (stops[i].vertex(soup), stops.get(i + 1)?.vertex(soup));
+    let [before, after] = [&stops[i], stops.get(i + 1)?].map(|s| s.vertex(geometry, s.definition(soup)));
     on_line.iter().find_map(|&(edge, ends)| {
         let [p, q] = ends.map(|p| geometry.point_vertex(p));
         let (lo, hi) = if geometry.cmp_coordinate(&p, &q, axis).is_lt() { (p, q) } else { (q, p) };
@@ -401,7 +403,7 @@ fn vertex_at(soup: &Soup, stops: [Option<&Stop>; 2], out: &mut Contacts) -> Vert
         .expect("every point of the overlay is a stop of one trace");
     match stop.definition(soup) {
         VertexDef::Point(p) => p,
-        def => out.edge_vertex(&soup.geometry, def, |_| *stop.vertex(soup)),
+        def => out.edge_vertex(&soup.geometry, def, |def| *stop.vertex(&soup.geometry, def)),
     }
 }
 

@@ -15,7 +15,7 @@
 use crate::boolean::FillRule;
 use crate::boxes::{Aabb, BoxTree, bits_of};
 use crate::circuit::{Circuit, Value};
-use crate::coplanar;
+use crate::coplanar::{self, Overlay};
 use crate::parallel;
 use crate::progress::{Cancelled, Course};
 use crate::soup::Soup;
@@ -204,11 +204,11 @@ impl Live {
 
 /// The sets of facets that overlap in one plane.
 fn overlapping(soup: &Soup, pairs: &[[u32; 2]], course: &Course) -> Result<UnionFind, Cancelled> {
-    let mut sets = UnionFind::new(soup.n_facets());
+    let (mut sets, mut overlay) = (UnionFind::new(soup.n_facets()), Overlay::default());
     for chunk in pairs.chunks(PAIRS_A_CHUNK) {
         course.go_on()?;
         for &[f, g] in chunk {
-            if soup.geometry.is_coplanar(f, g) && coplanar::overlap(soup, [f, g]) {
+            if soup.geometry.is_coplanar(f, g) && coplanar::overlap(soup, [f, g], &mut overlay) {
                 sets.union(f, g);
             }
         }

@@ -3,10 +3,12 @@
 use super::fit::Fit;
 use super::scan::{Scan, Shape};
 use super::{Input, Tolerance};
+use crate::counting::sorted_by_place;
 use crate::kernel::{Geometry, Plane};
 use crate::soup::Soup;
 use crate::split::offsets;
 use crate::union_find::UnionFind;
+use lar_core::Cells;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
 
@@ -41,7 +43,7 @@ struct Search<'a> {
     /// The facets of polygon p, which follow each other, are `first_facet[p]..first_facet[p + 1]`.
     first_facet: Vec<u32>,
     /// The polygons that lie nearly in one plane with each polygon.
-    neighbours: Lists,
+    neighbours: Cells,
 }
 
 /// The clusters of more than one triangle, with what touches them and their canonical planes.
@@ -53,7 +55,7 @@ pub(super) fn clusters(input: &Input, scan: &Scan) -> Vec<Cluster> {
     adjacent.dedup();
     let n_polygons = input.soup.polygon_flat.len();
     let first_facet = offsets(n_polygons, input.soup.facet_polygon.iter().copied());
-    let search = Search { input, first_facet, neighbours: Lists::of_pairs(n_polygons, &adjacent) };
+    let search = Search { input, first_facet, neighbours: partners(n_polygons, &adjacent) };
     let mut clusters = search.clusters(&adjacent);
     if !clusters.is_empty() {
         search.add_touching_corners(&mut clusters);
@@ -79,7 +81,7 @@ impl Search<'_> {
         }
         let (labels, _) = sets.labels();
         let is_candidate = |&p: &u32| {
-            let is_lone_triangle = self.neighbours.of(p).is_empty() && self.is_triangle(p);
+            let is_lone_triangle = self.neighbours[p as usize].is_empty() && self.is_triangle(p);
             self.input.soup.polygon_flat[p as usize] && !is_lone_triangle
         };
         let candidates = (0..n_polygons as u32).filter(is_candidate);
@@ -171,7 +173,7 @@ impl Search<'_> {
         };
         let (mut n_fitted, mut next) = (1, 0);
         while next < members.len() {
-            for &polygon in self.neighbours.of(members[next]) {
+            for &polygon in &self.neighbours[members[next] as usize] {
                 if free.contains_key(&polygon) && seen.insert(polygon) && lies_near(&fit, polygon) {
                     members.push(polygon);
                 }
@@ -207,7 +209,7 @@ impl Search<'_> {
     /// point).
     fn add_touching_corners(&self, clusters: &mut [Cluster]) {
         let (n_facets, n_points) = (self.input.soup.n_facets(), self.geometry().n_points());
-        let paired = Lists::of_pairs(n_facets, self.input.pairs);
+        let paired = partners(n_facets, self.input.pairs);
         let at_corner = self.facets_at_corners(clusters);
         // The last cluster that a facet and a point were looked at for.
         let (mut facet_seen, mut point_seen) = (vec![u32::MAX; n_facets], vec![u32::MAX; n_points]);
@@ -215,8 +217,8 @@ impl Search<'_> {
             let own = cluster.polygons.iter().flat_map(|&polygon| self.facets(polygon));
             own.clone().for_each(|f| facet_seen[f as usize] = id);
             cluster.corners.iter().for_each(|&p| point_seen[p as usize] = id);
-            let others = own.flat_map(|f| paired.of(f));
-            for &facet in others.chain(cluster.corners.iter().flat_map(|&p| at_corner.of(p))) {
+            let others = own.flat_map(|f| &paired[f as usize]);
+            for &facet in others.chain(cluster.corners.iter().flat_map(|&p| &at_corner[p as usize])) {
                 if std::mem::replace(&mut facet_seen[facet as usize], id) == id {
                     continue;
                 }
@@ -232,13 +234,13 @@ impl Search<'_> {
     }
 
     /// The facets at each point that is a corner of a cluster.
-    fn facets_at_corners(&self, clusters: &[Cluster]) -> Lists {
+    fn facets_at_corners(&self, clusters: &[Cluster]) -> Cells {
         let n_points = self.geometry().n_points();
         let mut is_corner = vec![false; n_points];
         clusters.iter().flat_map(|c| &c.corners).for_each(|&p| is_corner[p as usize] = true);
         let facets = 0..self.input.soup.n_facets() as u32;
         let entries = facets.flat_map(|f| self.input.corners(f).map(move |p| (p, f)));
-        Lists::new(n_points, entries.filter(|(p, _)| is_corner[*p as usize]))
+        lists(n_points, &entries.filter(|(p, _)| is_corner[*p as usize]).collect::<Vec<_>>())
     }
 }
 
@@ -256,32 +258,13 @@ pub(super) fn planes_of_faces(soup: &Soup, clusters: &[Cluster]) -> Vec<Vec<Opti
     planes
 }
 
-/// A list for each of 0..n.
-struct Lists {
-    offsets: Vec<u32>,
-    items: Vec<u32>,
+/// A list for each of 0..n, of entries (whose list, item) in their order.
+fn lists(n: usize, entries: &[(u32, u32)]) -> Cells {
+    let (offsets, sorted) = sorted_by_place(n, entries, |entry| entry.0 as usize);
+    Cells::from_parts(offsets, sorted.into_iter().map(|entry| entry.1).collect())
 }
 
-impl Lists {
-    /// Of entries (whose list, item), in their order.
-    fn new(n: usize, entries: impl Iterator<Item = (u32, u32)> + Clone) -> Self {
-        let offsets = offsets(n, entries.clone().map(|entry| entry.0));
-        let mut next = offsets[..n].to_vec();
-        let mut items = vec![0; offsets[n] as usize];
-        for (of, item) in entries {
-            items[next[of as usize] as usize] = item;
-            next[of as usize] += 1;
-        }
-        Self { offsets, items }
-    }
-
-    /// The partners of each.
-    fn of_pairs(n: usize, pairs: &[[u32; 2]]) -> Self {
-        Self::new(n, pairs.iter().flat_map(|&[a, b]| [(a, b), (b, a)]))
-    }
-
-    fn of(&self, i: u32) -> &[u32] {
-        let i = i as usize;
-        &self.items[self.offsets[i] as usize..self.offsets[i + 1] as usize]
-    }
+/// The partners of each of 0..n.
+fn partners(n: usize, pairs: &[[u32; 2]]) -> Cells {
+    lists(n, &pairs.iter().flat_map(|&[a, b]| [(a, b), (b, a)]).collect::<Vec<_>>())
 }

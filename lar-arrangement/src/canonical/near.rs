@@ -29,7 +29,7 @@ fn pairs(points: &[u32], at: impl Fn(u32) -> [i64; 3], limit: impl Fn(u32) -> i6
             let ((a, b), limit) = ((at(p), at(q)), limit(p).max(limit(q)));
             class(limit) == of && (0..3).all(|k| (a[k] - b[k]).abs() <= limit)
         };
-        let cells = Cells { side: CELL << of, reach: 1 << of };
+        let cells = CellGrid { side: CELL << of, reach: 1 << of };
         let members: Vec<u32> = points.iter().copied().filter(|&p| class(limit(p)) <= of).collect();
         // The last member in a cell, and the one before each.
         let mut last: FxHashMap<[i64; 3], u32> = FxHashMap::default();
@@ -71,13 +71,13 @@ fn class(distance: i64) -> u32 {
 }
 
 /// A grid of cells.
-struct Cells {
+struct CellGrid {
     side: i64,
     /// At most as long as a side.
     reach: i64,
 }
 
-impl Cells {
+impl CellGrid {
     /// The cell of a point. Places that are round numbers lie in the middle of cells.
     fn of(&self, at: [i64; 3]) -> [i64; 3] {
         at.map(|x| (x + self.side / 2).div_euclid(self.side))

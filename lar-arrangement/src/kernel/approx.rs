@@ -5,7 +5,7 @@
 
 use super::double::{Double, Fraction};
 use super::geometry::{Geometry, Support, VertexDef};
-use super::point::{HPointOf, Plane, PlaneOf};
+use super::point::{self, HPointOf, Plane, PlaneOf};
 
 /// A number within `error` of `value`. The errors are sums of positive terms, computed in `f64`: they are doubled
 /// when they decide.
@@ -118,14 +118,11 @@ fn cross(a: &[Approx; 3], b: &[Approx; 3]) -> [Approx; 3] {
 /// Minors have 82 bits and the determinant 124. The numerators have 166 and become double-doubles with a relative error
 /// below 2^-103; so the quotients' is below 2^-97.
 fn on_canonical_planes([a, b, c]: [&Plane; 3]) -> Option<[f64; 3]> {
+    // Known to fit 64 bits, so that products take one instruction.
     let [l, m, n] = [a, b, c].map(|plane| plane.n.map(|x| x as i64));
-    let cross = |a: [i64; 3], b: [i64; 3]| {
-        let minor =
-            |u: usize, v: usize| i128::from(a[u]) * i128::from(b[v]) - i128::from(a[v]) * i128::from(b[u]);
-        [minor(1, 2), minor(2, 0), minor(0, 1)]
-    };
+    let cross = |a: [i64; 3], b: [i64; 3]| point::cross(a.map(i128::from), b.map(i128::from));
     let pairs = [cross(m, n), cross(n, l), cross(l, m)];
-    let w: i128 = (0..3).map(|k| i128::from(n[k]) * pairs[2][k]).sum();
+    let w = point::dot(pairs[2], n);
     let by = Double::from_i128(w);
     let coordinate = |k: usize| {
         let x = Double::from_products([(a.d, pairs[0][k]), (b.d, pairs[1][k]), (c.d, pairs[2][k])]);

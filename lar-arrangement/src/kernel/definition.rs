@@ -25,8 +25,8 @@ impl Geometry {
         }
         // As where one of them meets another shared plane that holds the other.
         let beside = |edge: [u32; 2]| {
-            let others = self.planes_of_edge(edge).filter_map(|plane| self.first_on_plane(plane));
-            others.into_iter().find(|&other| self.is_across(other, facet))
+            let mut others = self.planes_of_edge(edge).filter_map(|plane| self.first_on_plane(plane));
+            others.find(|&other| self.is_across(other, facet))
         };
         let on_plane = |ends: [u32; 2], other: [u32; 2]| {
             beside(other).map(|f| VertexDef::EdgePlane { ends, support: Support::Facet(f) })
@@ -76,8 +76,8 @@ impl Geometry {
         if let Some(point) = self.grid_point(p) {
             return Some([point[axis].into(), 1]);
         }
-        let planes = self.planes_of_point(p).iter().filter_map(|&plane| self.canonical_plane(plane));
-        planes.into_iter().find_map(|plane| coordinate_of_plane(plane, axis))
+        let mut planes = self.planes_of_point(p).iter().filter_map(|&plane| self.canonical_plane(plane));
+        planes.find_map(|plane| coordinate_of_plane(plane, axis))
     }
 
     /// Of an edge at right angles to the axis.
@@ -130,17 +130,13 @@ impl Geometry {
     }
 
     /// Whether the planes of three facets meet in one point beyond doubt.
-    fn meet_in_one_point(&self, facets: [u32; 3]) -> bool {
-        let [l, m, n] = facets.map(|f| self.normal(f));
-        let (mut det, mut magnitude) = (0.0, 0.0);
-        for (k, n) in n.into_iter().enumerate() {
-            let (u, v) = ((k + 1) % 3, (k + 2) % 3);
-            let (left, right) = (l[u] * m[v], l[v] * m[u]);
-            det += (left - right) * n;
-            magnitude += (left.abs() + right.abs()) * n.abs();
-        }
-        // Three components off by 2^-52 each and at most six roundings of 2^-53 in a term.
-        det.abs() > magnitude * 2f64.powi(-48)
+    fn meet_in_one_point(&self, [a, b, c]: [u32; 3]) -> bool {
+        let ((line, error), n) = (self.cross_product([a, b]), self.normal(c));
+        let terms: [f64; 3] = std::array::from_fn(|k| n[k] * line[k]);
+        let magnitude: f64 = terms.iter().map(|x| x.abs()).sum();
+        let of_line: f64 = n.iter().map(|x| x.abs() * error).sum();
+        // The components of n are off by 2^-52, and there are four roundings of 2^-53 in a term.
+        (terms[0] + terms[1] + terms[2]).abs() > 2.0 * of_line + magnitude * 2f64.powi(-50)
     }
 }
 

@@ -7,6 +7,7 @@
 use super::approx::{ApproxPlane, approx_point};
 use super::double::Double;
 use super::point::{HPointOf, Plane, PlaneOf};
+use super::predicates::longest_axis;
 use super::{Int, Sign};
 use crate::parallel;
 use lar_core::Cells;
@@ -403,7 +404,7 @@ impl Geometry {
     /// not zero: the largest of three integers, not all zero, does not round to zero.
     pub(crate) fn dominant_axis(&self, facet: u32) -> (usize, bool) {
         let n = self.normal(facet);
-        let axis = (1..3).fold(0, |best, k| if n[k].abs() > n[best].abs() { k } else { best });
+        let axis = longest_axis(n);
         (axis, n[axis] > 0.0)
     }
 

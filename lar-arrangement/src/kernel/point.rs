@@ -19,11 +19,11 @@ fn wide_difference(a: [i64; 3], b: [i64; 3]) -> [i128; 3] {
     std::array::from_fn(|k| i128::from(a[k] - b[k]))
 }
 
-fn cross(a: [i128; 3], b: [i128; 3]) -> [i128; 3] {
+pub(super) fn cross(a: [i128; 3], b: [i128; 3]) -> [i128; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-fn dot(n: [i128; 3], p: [i64; 3]) -> i128 {
+pub(super) fn dot(n: [i128; 3], p: [i64; 3]) -> i128 {
     n[0] * i128::from(p[0]) + n[1] * i128::from(p[1]) + n[2] * i128::from(p[2])
 }
 

@@ -158,7 +158,7 @@ impl Geometry {
     }
 
     #[inline]
-    fn cross_product(&self, facets: [u32; 2]) -> ([f64; 3], f64) {
+    pub(super) fn cross_product(&self, facets: [u32; 2]) -> ([f64; 3], f64) {
         let [m, n] = facets.map(|f| self.normal(f));
         let largest = |v: [f64; 3]| v[0].abs().max(v[1].abs()).max(v[2].abs());
         let cross = [m[1] * n[2] - m[2] * n[1], m[2] * n[0] - m[0] * n[2], m[0] * n[1] - m[1] * n[0]];
@@ -391,7 +391,8 @@ pub(crate) struct Midpoint {
     pub of: [VertexDef; 2],
 }
 
-fn longest_axis(v: [f64; 3]) -> usize {
+/// The axis along which a vector is longest, the first of equal ones.
+pub(crate) fn longest_axis(v: [f64; 3]) -> usize {
     (1..3).fold(0, |best, k| if v[k].abs() > v[best].abs() { k } else { best })
 }
 
