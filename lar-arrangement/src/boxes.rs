@@ -403,7 +403,9 @@ impl<const D: usize> BoxTree<D> {
         let parts = course.map(self.n_nodes(level), |i| {
             let mut blocks = Vec::new();
             self.meeting_blocks((level, i), (self.blocks.len(), 0), &mut blocks);
-            blocks.sort_unstable();
+            if self.ranks.is_empty() {
+                blocks.sort_unstable();
+            }
             let mut found = Vec::new();
             for [this, other] in blocks.into_iter().take_while(|_| !course.is_cancelled()) {
                 self.pairs_of_blocks(this as usize, other as usize, &mut |i, j| {
@@ -414,15 +416,19 @@ impl<const D: usize> BoxTree<D> {
             }
             found
         })?;
-        let mut pairs = parts.concat();
-        if !self.ranks.is_empty() {
-            // The order that there would be without groups: what is found of these shows in no result.
-            pairs.sort_by_cached_key(|pair| {
-                let [a, b] = pair.map(|item| self.ranks[item as usize]);
-                (a.min(b) / WIDTH as u32, a.max(b), a.min(b))
-            });
+        let pairs = parts.concat();
+        if self.ranks.is_empty() {
+            return Ok(pairs);
         }
-        Ok(pairs)
+        // The order that there would be without groups: what is found of these shows in no result.
+        let mut keyed = parallel::map_light(pairs.len(), |i| {
+            let [a, b] = pairs[i].map(|item| u64::from(self.ranks[item as usize]));
+            let (low, high) = (a.min(b), a.max(b));
+            let (block, at) = (low / WIDTH as u64, low % WIDTH as u64);
+            ((block << 32 | high) * WIDTH as u64 + at, pairs[i])
+        });
+        parallel::sort_distinct_by(&mut keyed, |a, b| a.0.cmp(&b.0));
+        Ok(parallel::map_light(keyed.len(), |i| keyed[i].1))
     }
 
     /// The pairs of two blocks, or of one.

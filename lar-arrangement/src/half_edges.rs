@@ -151,7 +151,7 @@ pub(crate) fn edges(n_points: usize, half_edges: HalfEdges<'_>) -> (Vec<[u32; 2]
     });
     let counts: Vec<usize> =
         firsts.iter().map(|words| words.iter().map(|w| w.count_ones() as usize).sum()).collect();
-    let mut edges = vec![[0; 2]; counts.iter().sum()];
+    let mut edges = parallel::zeros(counts.iter().sum());
     let mut begin = 0;
     let begins = counts.iter().map(|count| {
         begin += count;

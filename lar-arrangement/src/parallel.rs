@@ -19,6 +19,73 @@ thread_local! {
     static ALONE: Cell<bool> = const { Cell::new(false) };
 }
 
+/// Threads that stay awake between the parallel sections of an operation. The system takes longer to wake a thread than
+/// many a section lasts: a processor without work may be halted, and a virtual one given away.
+#[cfg(feature = "rayon")]
+mod attendance {
+    use std::cell::Cell;
+    use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+    use std::time::{Duration, Instant};
+
+    /// A thread without work waits so long for more before it sleeps.
+    const PATIENCE: Duration = Duration::from_millis(2);
+
+    /// Operations at work.
+    static OPERATIONS: AtomicUsize = AtomicUsize::new(0);
+    /// Threads that wait for work or do it, and those asked to.
+    static PRESENT: AtomicUsize = AtomicUsize::new(0);
+
+    thread_local! {
+        /// Whether this thread runs an operation, or attends one already.
+        static IS_TAKEN: Cell<bool> = const { Cell::new(false) };
+    }
+
+    /// While it lives, the others of n threads are kept awake for this one.
+    pub(super) struct Lead(bool);
+
+    impl Lead {
+        pub(super) fn new() -> Self {
+            OPERATIONS.fetch_add(1, Relaxed);
+            Self(IS_TAKEN.replace(true))
+        }
+    }
+
+    impl Drop for Lead {
+        fn drop(&mut self) {
+            OPERATIONS.fetch_sub(1, Relaxed);
+            IS_TAKEN.set(self.0);
+        }
+    }
+
+    /// Asks those of n threads to be there that are not.
+    pub(super) fn call(n: usize) {
+        if OPERATIONS.load(Relaxed) > 0 {
+            while PRESENT.load(Relaxed) + 1 < n {
+                PRESENT.fetch_add(1, Relaxed);
+                rayon::spawn(attend);
+            }
+        }
+    }
+
+    /// Works on what there is until there has been nothing for long. A thread that waits for another one in the midst of
+    /// some work must not begin this: it would wait here.
+    #[inline(never)]
+    fn attend() {
+        if !IS_TAKEN.replace(true) {
+            let mut idle = Instant::now();
+            while OPERATIONS.load(Relaxed) > 0 && idle.elapsed() < PATIENCE {
+                if rayon::yield_now() == Some(rayon::Yield::Executed) {
+                    idle = Instant::now();
+                } else {
+                    std::thread::yield_now();
+                }
+            }
+            IS_TAKEN.set(false);
+        }
+        PRESENT.fetch_sub(1, Relaxed);
+    }
+}
+
 /// At most so many threads for an operation of several steps. They are started for the first step that is worth it.
 pub(crate) struct Team {
     #[cfg(feature = "rayon")]
@@ -58,7 +125,10 @@ impl Team {
             _ if size < WORTH_THREADS => Ok(alone(f)),
             None => Ok(f()),
             Some(NonZeroUsize::MIN) => Ok(alone(f)),
-            Some(threads) => Ok(self.pool(threads.get())?.install(f)),
+            Some(threads) => Ok(self.pool(threads.get())?.install(|| {
+                let _lead = attendance::Lead::new();
+                f()
+            })),
         }
     }
 
@@ -131,6 +201,7 @@ fn map_pieces<R: Send>(n: usize, piece: usize, f: impl Fn(usize) -> R + Sync + S
     if n <= piece || n_threads() == 1 {
         return (0..n).map(f).collect();
     }
+    attendance::call(n_threads());
     (0..n).into_par_iter().with_max_len(piece).map(f).collect()
 }
 
@@ -175,6 +246,7 @@ pub(crate) fn extend_light<R: Send>(list: &mut Vec<R>, n: usize, f: impl Fn(usiz
     if n <= light_piece(n) || n_threads() == 1 {
         list.extend((0..n).map(f));
     } else {
+        attendance::call(n_threads());
         list.par_extend((0..n).into_par_iter().with_max_len(light_piece(n)).map(f));
     }
 }
@@ -195,6 +267,7 @@ pub(crate) fn unzip_light<A: Send, B: Send>(
     if n <= light_piece(n) || n_threads() == 1 {
         return (0..n).map(f).unzip();
     }
+    attendance::call(n_threads());
     let (mut a, mut b) = (Vec::new(), Vec::new());
     (0..n).into_par_iter().with_max_len(light_piece(n)).map(f).unzip_into_vecs(&mut a, &mut b);
     (a, b)
@@ -209,7 +282,11 @@ pub(crate) fn unzip_light<A, B>(n: usize, f: impl Fn(usize) -> (A, B)) -> (Vec<A
 /// Runs both, and returns both results.
 #[cfg(feature = "rayon")]
 pub(crate) fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
-    if n_threads() == 1 { (a(), b()) } else { rayon::join(a, b) }
+    if n_threads() == 1 {
+        return (a(), b());
+    }
+    attendance::call(n_threads());
+    rayon::join(a, b)
 }
 
 /// Runs both, and returns both results.
@@ -225,6 +302,7 @@ pub(crate) fn each<T: Send>(items: Vec<T>, f: impl Fn(T) + Sync + Send) {
     if n_threads() == 1 {
         return items.into_iter().for_each(f);
     }
+    attendance::call(n_threads());
     let piece = items.len().div_ceil(PIECES).max(1);
     items.into_par_iter().with_max_len(piece).for_each(f);
 }
@@ -242,6 +320,7 @@ pub(crate) fn map_each<T: Send, R: Send>(items: Vec<T>, f: impl Fn(usize, T) -> 
     if n_threads() == 1 {
         return items.into_iter().enumerate().map(|(i, item)| f(i, item)).collect();
     }
+    attendance::call(n_threads());
     items.into_par_iter().enumerate().with_max_len(1).map(|(i, item)| f(i, item)).collect()
 }
 
@@ -255,7 +334,11 @@ pub(crate) fn map_each<T, R>(items: Vec<T>, f: impl Fn(usize, T) -> R) -> Vec<R>
 #[cfg(feature = "rayon")]
 pub(crate) fn sort_distinct_by<T: Send>(items: &mut [T], cmp: impl Fn(&T, &T) -> Ordering + Sync) {
     use rayon::prelude::*;
-    if n_threads() == 1 { items.sort_unstable_by(cmp) } else { items.par_sort_unstable_by(cmp) }
+    if n_threads() == 1 {
+        return items.sort_unstable_by(cmp);
+    }
+    attendance::call(n_threads());
+    items.par_sort_unstable_by(cmp);
 }
 
 /// Sorts distinct items.

@@ -223,6 +223,11 @@ impl Soup {
         self.facet_edges.indices().len() == 3 * self.n_facets()
     }
 
+    /// Whether every polygon is a triangle.
+    pub(crate) fn are_lone_triangles(&self) -> bool {
+        self.are_triangles() && self.polygon_flat.len() == self.n_facets()
+    }
+
     /// Where in a facet's list the edge stands that goes on where edge i ends.
     pub(crate) fn next_in_loop(&self, edges: &[u32], i: usize) -> usize {
         if edges.len() == 3 {

@@ -48,6 +48,9 @@ struct Search<'a> {
 
 /// The clusters of more than one triangle, with what touches them and their canonical planes.
 pub(super) fn clusters(input: &Input, scan: &Scan) -> Vec<Cluster> {
+    if scan.coplanar.is_empty() && input.soup.are_lone_triangles() {
+        return Vec::new();
+    }
     let polygon = |f: u32| input.soup.facet_polygon[f as usize];
     let mut adjacent: Vec<[u32; 2]> = scan.coplanar.iter().map(|pair| pair.map(polygon)).collect();
     adjacent.iter_mut().for_each(|pair| pair.sort_unstable());

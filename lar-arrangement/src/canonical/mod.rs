@@ -16,7 +16,6 @@ mod placement;
 mod scan;
 mod vector;
 
-use crate::boxes::NO_GROUP;
 use crate::charts::Charts;
 use crate::grid_points::PointTable;
 use crate::half_edges::MANY;
@@ -110,12 +109,11 @@ impl Input<'_> {
         (are_two && is_settled()).then_some([f, g])
     }
 
-    /// Whether the corners of a facet are known to be apart: it is in a chart, or a triangle with two clean corners, which
-    /// are on all its sides.
+    /// Whether the corners of a facet in no chart are known to be apart: it is a triangle with two clean corners, which are
+    /// on all its sides.
     fn has_corners_apart(&self, facet: u32) -> bool {
         let is_clean = |p: &&u32| self.stars.is_clean(**p);
-        self.charts.of(facet) != NO_GROUP
-            || self.soup.geometry.base(facet).iter().filter(is_clean).count() >= 2
+        self.soup.geometry.base(facet).iter().filter(is_clean).count() >= 2
     }
 
     fn corners(&self, facet: u32) -> impl Iterator<Item = u32> + Clone + '_ {

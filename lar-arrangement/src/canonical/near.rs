@@ -61,7 +61,7 @@ fn in_question(input: &Input) -> Vec<u32> {
         points.extend(new);
     };
     input.pairs.as_flattened().iter().for_each(|&facet| see(facet));
-    (0..input.soup.n_facets() as u32).filter(|&f| !input.has_corners_apart(f)).for_each(see);
+    input.charts.without.iter().copied().filter(|&f| !input.has_corners_apart(f)).for_each(see);
     points
 }
 

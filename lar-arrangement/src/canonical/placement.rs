@@ -39,6 +39,9 @@ pub(super) fn on_planes(
 /// The clusters that matter: those that move corners, and those that share corners with them, directly or through
 /// others. A settled one keeps its plane, so nothing goes on through it.
 pub(super) fn registered(clusters: Vec<Cluster>, n_points: usize) -> Vec<Cluster> {
+    if clusters.is_empty() {
+        return clusters;
+    }
     let mut of_point = vec![Vec::new(); n_points];
     for (cluster, id) in clusters.iter().zip(0usize..) {
         cluster.all_corners().for_each(|p| of_point[p as usize].push(id));
