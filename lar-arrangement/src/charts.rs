@@ -27,10 +27,10 @@ use crate::union_find::UnionFind;
 use std::ops::Range;
 
 /// Facets a chunk of work.
-const FACETS_A_CHUNK: usize = 1 << 14;
+const FACETS_A_CHUNK: usize = 1 << 12;
 
 /// Smaller charts are not worth their boundaries.
-const SMALL: u32 = 16;
+const SMALL: usize = 16;
 
 /// No direction that a facet looks in.
 const NOWHERE: u8 = 6;
@@ -51,7 +51,7 @@ impl Charts {
     /// O(n log n + b), where the boundaries have b pairs of edges with boxes that meet.
     pub(crate) fn new(soup: &Soup, distance: f64, course: &Course) -> Result<Self, Cancelled> {
         let n = soup.n_facets();
-        if !soup.geometry.is_on_grid() || n < SMALL as usize {
+        if !soup.geometry.is_on_grid() || n < SMALL {
             return Ok(Self::none(n));
         }
         // Points within the distance along both axes are within √2 of it. Differences of coordinates are exact and have 41
@@ -141,19 +141,29 @@ fn candidates(soup: &Soup, looks: &[u8]) -> (Vec<u32>, Vec<u8>) {
     let users = &soup.facets_of_edge;
     let joined = |edges: Range<usize>| users[edges].iter().map(|&[f, g]| (f, g)).filter(look_alike);
     let (mut of_facet, n) = UnionFind::of_pairs(looks.len(), users.len(), joined).labels();
-    let mut sizes = vec![0; n as usize];
-    of_facet.iter().for_each(|&set| sizes[set as usize] += 1);
-    let mut number = vec![NO_GROUP; n as usize];
-    let mut axes = Vec::new();
-    for (set, &look) in of_facet.iter_mut().zip(looks) {
-        let large = sizes[*set as usize] >= SMALL;
-        let number = &mut number[*set as usize];
-        if large && *number == NO_GROUP {
-            *number = axes.len() as u32;
-            axes.push(look);
+    // How many there are in each set, and where its first one looks.
+    let mut sets = vec![(0, NOWHERE); n as usize];
+    let mut begin = 0;
+    for alike in of_facet.chunk_by(|a, b| a == b) {
+        let (size, look) = &mut sets[alike[0] as usize];
+        if *size == 0 {
+            *look = looks[begin];
         }
-        *set = *number;
+        *size += alike.len();
+        begin += alike.len();
     }
+    let mut axes = Vec::new();
+    let number = sets.into_iter().map(|(size, look)| {
+        if size < SMALL {
+            return NO_GROUP;
+        }
+        axes.push(look);
+        axes.len() as u32 - 1
+    });
+    let number: Vec<u32> = number.collect();
+    parallel::each_chunk(&mut of_facet, |_, sets| {
+        sets.iter_mut().for_each(|set| *set = number[*set as usize])
+    });
     (of_facet, axes)
 }
 

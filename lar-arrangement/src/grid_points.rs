@@ -26,7 +26,7 @@ impl Unified {
     /// Every thread looks at all points and takes those with a place in its part of the table. O(n) expected for each.
     pub(crate) fn new(mut points: Vec<[i64; 3]>) -> Self {
         let at = |i: u32| points[i as usize];
-        let mut table = PointTable::with_capacity(points.len());
+        let mut table = PointTable { slots: parallel::zeros(PointTable::n_slots(points.len())) };
         let n_slots = table.slots.len();
         let part_of = |part: usize| parallel::part_of(n_slots, part);
         let parts =
@@ -122,7 +122,11 @@ impl Part<'_> {
 impl PointTable {
     /// A table for at most `n` points.
     pub(crate) fn with_capacity(n: usize) -> Self {
-        Self { slots: vec![0; (2 * n).next_power_of_two().max(2)] }
+        Self { slots: vec![0; Self::n_slots(n)] }
+    }
+
+    fn n_slots(n: usize) -> usize {
+        (2 * n).next_power_of_two().max(2)
     }
 
     /// Adds a point that is not there yet, by its number; `at` gives the coordinates of the others.

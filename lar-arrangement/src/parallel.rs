@@ -388,8 +388,11 @@ pub(crate) fn zeros<T: Copy + Default + Send>(n: usize) -> Vec<T> {
 
 /// Zeros for all threads to write to; like those of `vec!`, in memory that is touched where it is first written to.
 pub(crate) fn atomic_zeros(n: usize) -> Vec<AtomicU32> {
-    // Costs nothing: a number and an atomic one are the same in memory.
-    vec![0; n].into_iter().map(AtomicU32::new).collect()
+    if n_threads() == 1 {
+        // Costs nothing: a number and an atomic one are the same in memory.
+        return vec![0; n].into_iter().map(AtomicU32::new).collect();
+    }
+    map_light(n, |_| AtomicU32::new(0))
 }
 
 /// Calls `f` with 0..n in any order.

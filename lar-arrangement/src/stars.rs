@@ -23,9 +23,9 @@ use crate::parallel;
 use crate::soup::Soup;
 
 /// Points a chunk of work.
-const POINTS_A_CHUNK: usize = 4096;
+const POINTS_A_CHUNK: usize = 512;
 /// Facets a chunk of work.
-const FACETS_A_CHUNK: usize = 1 << 14;
+const FACETS_A_CHUNK: usize = 1 << 12;
 /// No number of a point.
 const NOT_WANTED: u32 = u32::MAX;
 

@@ -1,6 +1,7 @@
 //! Points that are nearly one.
 
 use super::Input;
+use crate::parallel;
 use rustc_hash::FxHashMap;
 
 /// The side of a cell over the distance up to which its points are near: a point near a side is looked for in the cell
@@ -52,17 +53,38 @@ fn pairs(points: &[u32], at: impl Fn(u32) -> [i64; 3], limit: impl Fn(u32) -> i6
     near
 }
 
-/// The corners of facets that are in a pair, or that may have two that are near.
+/// The corners of facets that are in a pair and may be near one of the other, or that may have two that are near.
 fn in_question(input: &Input) -> Vec<u32> {
+    let may_be_near = parallel::select(input.pairs.len(), |pair| {
+        let [f, g] = input.pairs[pair as usize];
+        !are_triangles_apart(input, f, g)
+    });
     let mut seen = vec![false; input.soup.geometry.n_points()];
     let mut points = Vec::new();
     let mut see = |facet: u32| {
         let new = input.corners(facet).filter(|&p| !std::mem::replace(&mut seen[p as usize], true));
         points.extend(new);
     };
-    input.pairs.as_flattened().iter().for_each(|&facet| see(facet));
+    may_be_near.iter().flat_map(|&pair| input.pairs[pair as usize]).for_each(&mut see);
     input.charts.without.iter().copied().filter(|&f| !input.has_corners_apart(f)).for_each(see);
     points
+}
+
+/// Whether two facets are triangles without corners that are near and not the same.
+fn are_triangles_apart(input: &Input, f: u32, g: u32) -> bool {
+    let soup = input.soup;
+    if [f, g].iter().any(|&facet| soup.facet_edges[facet as usize].len() != 3) {
+        return false;
+    }
+    let corners = |facet: u32| soup.geometry.base(facet).map(|p| (p, soup.geometry.position(p)));
+    let limit = |(p, _): (u32, [f64; 3])| soup.tolerances[p as usize].points();
+    let are_near = |(p, a): (u32, [f64; 3]), (q, b): (u32, [f64; 3]), limit: f64| {
+        p != q && (0..3).all(|k| (a[k] - b[k]).abs() <= limit)
+    };
+    let (of_f, of_g) = (corners(f), corners(g));
+    // Points may be off their nearest ones on the grid by half a step each.
+    let limit = of_f.into_iter().chain(of_g).map(limit).fold(0.0, f64::max) + 1.0;
+    !of_f.iter().any(|&a| of_g.iter().any(|&b| are_near(a, b, limit)))
 }
 
 /// The exponent of the power of two that is not below a distance.
