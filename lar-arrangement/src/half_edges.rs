@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 const FEW: usize = 24;
 
 /// Half-edges a chunk of work, a multiple of 64.
-const CHUNK: usize = 1 << 14;
+const CHUNK: usize = 1 << 13;
 
 /// Half-edges by their ends.
 #[derive(Clone, Copy)]

@@ -21,7 +21,7 @@ use lar_core::{Cells, Surface};
 use rustc_hash::FxHashMap;
 
 /// Points a chunk of work.
-const POINTS_A_CHUNK: usize = 1 << 14;
+const POINTS_A_CHUNK: usize = 1 << 12;
 
 /// A face of the input that a polygon stands for: `sign` is −1 when the polygon is turned the other way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -32,7 +32,7 @@ pub(crate) struct Windings {
 const RECENT: usize = 4;
 
 /// Faces a chunk of work.
-const FACES_A_CHUNK: usize = 1 << 14;
+const FACES_A_CHUNK: usize = 1 << 12;
 
 /// The change of winding numbers across a face, from front to back: solid, signed sum, sum modulo 2.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

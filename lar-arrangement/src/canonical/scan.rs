@@ -7,7 +7,7 @@ use crate::parallel;
 use crate::progress::{Cancelled, Course};
 
 /// Pairs of facets a chunk of work.
-const PAIRS_A_CHUNK: usize = 1 << 14;
+const PAIRS_A_CHUNK: usize = 1 << 11;
 
 /// What the pass found.
 #[derive(Debug)]

@@ -8,7 +8,7 @@ use lar_core::Cells;
 use rustc_hash::FxHashMap;
 
 /// Facets a chunk of work.
-const FACETS_A_CHUNK: usize = 1 << 14;
+const FACETS_A_CHUNK: usize = 1 << 12;
 
 /// A facet, the first one with the same corners, and whether both turn the same way.
 pub(super) struct Double {
