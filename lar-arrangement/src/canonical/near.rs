@@ -53,19 +53,26 @@ fn pairs(points: &[u32], at: impl Fn(u32) -> [i64; 3], limit: impl Fn(u32) -> i6
     near
 }
 
-/// The corners of facets that are in a pair and may be near one of the other, or that may have two that are near.
+/// The corners of facets that are in a pair, without most that are near none of the other, and of facets that may have two
+/// that are near.
 fn in_question(input: &Input) -> Vec<u32> {
-    let may_be_near = parallel::select(input.pairs.len(), |pair| {
-        let [f, g] = input.pairs[pair as usize];
-        !are_triangles_apart(input, f, g)
-    });
-    let mut seen = vec![false; input.soup.geometry.n_points()];
+    let n_points = input.soup.geometry.n_points();
+    let mut seen = vec![false; n_points];
     let mut points = Vec::new();
     let mut see = |facet: u32| {
         let new = input.corners(facet).filter(|&p| !std::mem::replace(&mut seen[p as usize], true));
         points.extend(new);
     };
-    may_be_near.iter().flat_map(|&pair| input.pairs[pair as usize]).for_each(&mut see);
+    if input.pairs.len() < n_points {
+        let may_be_near = parallel::select(input.pairs.len(), |pair| {
+            let [f, g] = input.pairs[pair as usize];
+            !are_triangles_apart(input, f, g)
+        });
+        may_be_near.iter().flat_map(|&pair| input.pairs[pair as usize]).for_each(&mut see);
+    } else {
+        // Each point is in many pairs.
+        input.pairs.as_flattened().iter().for_each(|&facet| see(facet));
+    }
     input.charts.without.iter().copied().filter(|&f| !input.has_corners_apart(f)).for_each(see);
     points
 }
