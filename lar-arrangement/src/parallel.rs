@@ -121,14 +121,17 @@ impl Team {
         size: usize,
         f: impl FnOnce() -> R + Send,
     ) -> Result<R, ArrangementError> {
+        if size < WORTH_THREADS || self.threads == Some(NonZeroUsize::MIN) {
+            return Ok(alone(f));
+        }
+        let led = || {
+            let _lead = attendance::Lead::new();
+            f()
+        };
         match self.threads {
-            _ if size < WORTH_THREADS => Ok(alone(f)),
-            None => Ok(f()),
-            Some(NonZeroUsize::MIN) => Ok(alone(f)),
-            Some(threads) => Ok(self.pool(threads.get())?.install(|| {
-                let _lead = attendance::Lead::new();
-                f()
-            })),
+            // On one of the threads from here on: each section that came from elsewhere would wake one, and be waited for.
+            None => Ok(rayon::scope(|_| led())),
+            Some(threads) => Ok(self.pool(threads.get())?.install(led)),
         }
     }
 
