@@ -162,7 +162,7 @@ fn candidates(soup: &Soup, looks: &[u8]) -> (Vec<u32>, Vec<u8>) {
     });
     let number: Vec<u32> = number.collect();
     parallel::each_chunk(&mut of_facet, |_, sets| {
-        sets.iter_mut().for_each(|set| *set = number[*set as usize])
+        sets.iter_mut().for_each(|set| *set = number[*set as usize]);
     });
     (of_facet, axes)
 }

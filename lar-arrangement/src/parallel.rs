@@ -29,6 +29,8 @@ mod attendance {
 
     /// A thread without work waits so long for more before it sleeps.
     const PATIENCE: Duration = Duration::from_millis(2);
+    /// More threads than this are not kept awake: all of them would look for work in the same places.
+    const MOST_AWAKE: usize = 16;
 
     /// Operations at work.
     static OPERATIONS: AtomicUsize = AtomicUsize::new(0);
@@ -40,36 +42,37 @@ mod attendance {
         static IS_TAKEN: Cell<bool> = const { Cell::new(false) };
     }
 
-    /// While it lives, the others of n threads are kept awake for this one.
-    pub(super) struct Lead(bool);
+    /// While it lives, this thread runs an operation.
+    pub(super) struct Lead {
+        was_taken: bool,
+    }
 
     impl Lead {
         pub(super) fn new() -> Self {
             OPERATIONS.fetch_add(1, Relaxed);
-            Self(IS_TAKEN.replace(true))
+            Self { was_taken: IS_TAKEN.replace(true) }
         }
     }
 
     impl Drop for Lead {
         fn drop(&mut self) {
             OPERATIONS.fetch_sub(1, Relaxed);
-            IS_TAKEN.set(self.0);
+            IS_TAKEN.set(self.was_taken);
         }
     }
 
-    /// Asks those of n threads to be there that are not.
+    /// Asks those of n threads to be there that are not. A thread that is not there itself asks nobody: it might be the one
+    /// to follow, while it waits in the midst of its work.
     pub(super) fn call(n: usize) {
-        if OPERATIONS.load(Relaxed) > 0 {
-            while PRESENT.load(Relaxed) + 1 < n {
+        if IS_TAKEN.get() {
+            while PRESENT.load(Relaxed) + 1 < n.min(MOST_AWAKE) {
                 PRESENT.fetch_add(1, Relaxed);
                 rayon::spawn(attend);
             }
         }
     }
 
-    /// Works on what there is until there has been nothing for long. A thread that waits for another one in the midst of
-    /// some work must not begin this: it would wait here.
-    #[inline(never)]
+    /// Works on what there is until there has been nothing for long.
     fn attend() {
         if !IS_TAKEN.replace(true) {
             let mut idle = Instant::now();

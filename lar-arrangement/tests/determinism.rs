@@ -48,3 +48,26 @@ fn sixty_cubes_are_the_same_for_any_number_of_threads() {
     let a = check(&random_cubes(60, &mut Random(60)).0);
     assert!(a.n_cells() > 1000, "only {} cells", a.n_cells());
 }
+
+/// Operations that share threads with others, or begin on one that is at work, end, and give what they give alone.
+#[test]
+fn operations_at_once_are_as_each_alone() {
+    let input = random_cubes(20, &mut Random(20)).0;
+    let expected = written(&Arranger::new().threads(NonZeroUsize::MIN).arrange(&input).expect("well formed"));
+    let arranged = |threads: usize| {
+        let arranger = NonZeroUsize::new(threads).map_or(Arranger::new(), |n| Arranger::new().threads(n));
+        assert!(written(&arranger.arrange(&input).expect("well formed")) == expected, "{threads} threads");
+    };
+    std::thread::scope(|scope| {
+        for caller in 0..6 {
+            let arranged = &arranged;
+            scope.spawn(move || (0..8).for_each(|i| arranged((caller + i) % 4)));
+        }
+    });
+    let report = |_| arranged(2);
+    let within = Arranger::new().threads(NonZeroUsize::new(3).expect("more than none")).progress(&report);
+    assert!(
+        written(&within.arrange(&input).expect("well formed")) == expected,
+        "an operation within another"
+    );
+}
