@@ -9,7 +9,6 @@ use crate::expression::Expression;
 use crate::fragment::Extent;
 use crate::live::Live;
 use crate::meeting::Meeting;
-use crate::parallel;
 use crate::pipeline::Arranger;
 use crate::progress::{Course, Plan};
 use crate::rays::Rays;
@@ -90,40 +89,40 @@ impl Arranger<'_> {
         rule: FillRule,
         detail: Detail,
     ) -> Result<(SolidComplex, Stats), BooleanError> {
-        let question = Question { expression, rule, detail, pairs_a_facet: PAIRS_WORTH_DIVIDING };
-        parallel::with_threads(self.threads, || self.run_boolean(surfaces, question))?
+        let pairs_a_facet = PAIRS_WORTH_DIVIDING;
+        self.solid_surface(surfaces, Question { expression, rule, detail, pairs_a_facet })
     }
 
-    fn run_boolean(
+    fn solid_surface(
         &self,
         surfaces: &[Surface],
         question: Question<'_>,
     ) -> Result<(SolidComplex, Stats), BooleanError> {
         let Question { expression, rule, detail, pairs_a_facet } = question;
-        let mut stats = Stats::default();
-        let course = Course::new(self.control, PLAN);
         let operands = expression.operands();
         if let Some(&solid) = operands.iter().find(|&&solid| solid >= surfaces.len()) {
             return Err(BooleanError::NoSuchSolid { solid, n_solids: surfaces.len() });
         }
-        let (soup, meeting) = self.soup_and_pairs(surfaces, &mut stats, &course)?;
-        let is_direct = meeting.pairs.len() > pairs_a_facet * soup.n_facets() && soup.are_cycles(&operands);
-        let mut arrangement = if is_direct {
-            self.result_alone(surfaces, soup, meeting, question, (stats, &course))?
-        } else {
-            self.arranged(surfaces, soup, meeting, Operators::Edges, (stats, &course))?
-        };
-        let mut stats = std::mem::take(&mut arrangement.stats);
-        let solid = if is_direct {
-            arrangement.union_of_cells([RESULT])
-        } else {
-            arrangement.solid_where(expression, rule, &course, &mut stats)?
-        };
-        let mut surface = simplify::surface(&solid, detail, &course, &mut stats)?;
-        // The arrangement is not the caller's.
-        surface.pieces = Vec::new();
-        course.finish(&mut stats);
-        Ok((surface, stats))
+        self.with_pairs(surfaces, PLAN, |soup, meeting, stats, course| {
+            let is_direct =
+                meeting.pairs.len() > pairs_a_facet * soup.n_facets() && soup.are_cycles(&operands);
+            let mut arrangement = if is_direct {
+                self.result_alone(surfaces, soup, meeting, question, (stats, course))?
+            } else {
+                self.arranged(surfaces, soup, meeting, Operators::Edges, (stats, course))?
+            };
+            let mut stats = std::mem::take(&mut arrangement.stats);
+            let solid = if is_direct {
+                arrangement.union_of_cells([RESULT])
+            } else {
+                arrangement.solid_where(expression, rule, course, &mut stats)?
+            };
+            let mut surface = simplify::surface(&solid, detail, course, &mut stats)?;
+            // The arrangement is not the caller's.
+            surface.pieces = Vec::new();
+            course.finish(&mut stats);
+            Ok((surface, stats))
+        })
     }
 
     /// An arrangement of two cells: the result, and everything else. Faces that are not between the two have the latter on

@@ -216,7 +216,7 @@ mod tests {
             }
             for threads in 1..=5 {
                 let unified = || Unified::new((0..of.len() as u32).map(point).collect());
-                let unified = parallel::with_threads(NonZeroUsize::new(threads), unified).unwrap();
+                let unified = parallel::Team::new(NonZeroUsize::new(threads)).work(usize::MAX, unified).unwrap();
                 prop_assert_eq!(&unified.points, &points);
                 if points.len() == of.len() {
                     prop_assert!(unified.number.is_empty());

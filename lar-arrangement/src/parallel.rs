@@ -4,14 +4,14 @@ use crate::error::ArrangementError;
 #[cfg(feature = "rayon")]
 use rayon::{ThreadPool, ThreadPoolBuilder};
 #[cfg(feature = "rayon")]
-use std::cell::{Cell, OnceCell};
+use std::cell::Cell;
 use std::cmp::Ordering;
 use std::num::NonZeroUsize;
 #[cfg(feature = "rayon")]
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::AtomicU32;
 #[cfg(feature = "rayon")]
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 #[cfg(feature = "rayon")]
 thread_local! {
@@ -94,7 +94,7 @@ pub(crate) struct Team {
     #[cfg(feature = "rayon")]
     threads: Option<NonZeroUsize>,
     #[cfg(feature = "rayon")]
-    pool: OnceCell<Arc<ThreadPool>>,
+    pool: OnceLock<Arc<ThreadPool>>,
 }
 
 /// The threads of the last operation that was given a number of them, for the next one: the system takes milliseconds to
@@ -108,7 +108,7 @@ const WORTH_THREADS: usize = 1 << 15;
 impl Team {
     #[cfg(feature = "rayon")]
     pub(crate) fn new(threads: Option<NonZeroUsize>) -> Self {
-        Self { threads, pool: OnceCell::new() }
+        Self { threads, pool: OnceLock::new() }
     }
 
     /// There is one.
@@ -129,7 +129,7 @@ impl Team {
         }
         let led = || {
             let _lead = attendance::Lead::new();
-            f()
+            on_thread(false, f)
         };
         match self.threads {
             // On one of the threads from here on: each section that came from elsewhere would wake one, and be waited for.
@@ -169,19 +169,17 @@ fn kept_pool(threads: usize) -> Result<Arc<ThreadPool>, ArrangementError> {
 /// Runs `f` on the caller's thread.
 #[cfg(feature = "rayon")]
 fn alone<R>(f: impl FnOnce() -> R) -> R {
-    let before = ALONE.replace(true);
-    // A panic must not leave the caller's thread alone.
+    on_thread(true, f)
+}
+
+/// Runs `f` on this thread, alone or not.
+#[cfg(feature = "rayon")]
+fn on_thread<R>(is_alone: bool, f: impl FnOnce() -> R) -> R {
+    let before = ALONE.replace(is_alone);
+    // A panic must not leave the thread as it is now.
     let done = catch_unwind(AssertUnwindSafe(f));
     ALONE.set(before);
     done.unwrap_or_else(|panic| resume_unwind(panic))
-}
-
-/// Runs `f` with at most so many threads; one is the caller's.
-pub(crate) fn with_threads<R: Send>(
-    threads: Option<NonZeroUsize>,
-    f: impl FnOnce() -> R + Send,
-) -> Result<R, ArrangementError> {
-    Team::new(threads).work(usize::MAX, f)
 }
 
 /// Number of threads at work. What depends on it must not show in any result.

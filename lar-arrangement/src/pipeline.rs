@@ -12,7 +12,7 @@ use crate::fragment::{Extent, Fragmenter, Fragments, Groups};
 use crate::interner::Interner;
 use crate::meeting::Meeting;
 use crate::nest::Nesting;
-use crate::parallel;
+use crate::parallel::{self, Team};
 use crate::progress::{Cancel, Cancelled, Control, Course, Plan, Progress};
 use crate::rays::Rays;
 use crate::skeleton::Skeleton;
@@ -24,6 +24,11 @@ use crate::union_find::UnionFind;
 use crate::wrap;
 use lar_core::{Cells, Precision, Surface};
 use std::num::NonZeroUsize;
+
+/// A face of the input, and then a pair of facets, count as so many things that a step handles: an operation of few takes
+/// no longer on one thread. With debug assertions small ones are divided all the same, so that tests see it.
+const WORK_A_FACE: usize = if cfg!(debug_assertions) { 1 << 15 } else { 128 };
+const WORK_A_PAIR: usize = 32;
 
 /// Pairs of facets a chunk of work.
 const PAIRS_A_CHUNK: usize = 2048;
@@ -198,17 +203,29 @@ impl<'a> Arranger<'a> {
     /// Points that are not three-dimensional or not finite, faces that name vertices that do not exist; with
     /// checks, a post-condition that does not hold; when the threads cannot be started or the work was cancelled.
     pub fn arrange(&self, surfaces: &[Surface]) -> Result<Arrangement, ArrangementError> {
-        parallel::with_threads(self.threads, || self.run(surfaces))?
+        self.with_pairs(surfaces, PLAN, |soup, meeting, stats, course| {
+            let mut out = self.arranged(surfaces, soup, meeting, Operators::All, (stats, course))?;
+            course.finish(&mut out.stats);
+            self.check(|| check::arrangement(&out))?;
+            Ok(out)
+        })
     }
 
-    fn run(&self, surfaces: &[Surface]) -> Result<Arrangement, ArrangementError> {
-        let mut stats = Stats::default();
-        let course = Course::new(self.control, PLAN);
-        let (soup, meeting) = self.soup_and_pairs(surfaces, &mut stats, &course)?;
-        let mut out = self.arranged(surfaces, soup, meeting, Operators::All, (stats, &course))?;
-        course.finish(&mut out.stats);
-        self.check(|| check::arrangement(&out))?;
-        Ok(out)
+    /// Finds the facets and their pairs, and goes on with `rest`, on as many threads as they are worth.
+    pub(crate) fn with_pairs<R: Send, E: From<ArrangementError> + Send>(
+        &self,
+        surfaces: &[Surface],
+        plan: &'static Plan,
+        rest: impl FnOnce(Soup, Meeting, Stats, &Course) -> Result<R, E> + Send,
+    ) -> Result<R, E> {
+        let team = Team::new(self.threads);
+        let of_faces = WORK_A_FACE * surfaces.iter().map(Surface::n_faces).sum::<usize>();
+        team.work(of_faces, || {
+            let (mut stats, course) = (Stats::default(), Course::new(self.control, plan));
+            let (soup, meeting) = self.soup_and_pairs(surfaces, &mut stats, &course)?;
+            let of_pairs = WORK_A_PAIR * meeting.pairs.len();
+            team.work(of_faces.max(of_pairs), || rest(soup, meeting, stats, &course))?
+        })?
     }
 
     /// Stages 2 to 6 for all cells.
@@ -282,7 +299,7 @@ impl<'a> Arranger<'a> {
     }
 
     /// Stage 1, and the pairs of facets whose boxes meet and that may have more in common than neighbours in a mesh.
-    pub(crate) fn soup_and_pairs(
+    fn soup_and_pairs(
         &self,
         surfaces: &[Surface],
         stats: &mut Stats,

@@ -142,7 +142,7 @@ mod tests {
             pairs.iter().for_each(|&(x, y)| _ = one_by_one.union(x, y));
             for threads in 1..=3 {
                 let found = || UnionFind::of_pairs(60, pairs.len(), |range| pairs[range].iter().copied()).labels();
-                let found = parallel::with_threads(NonZeroUsize::new(threads), found).unwrap();
+                let found = parallel::Team::new(NonZeroUsize::new(threads)).work(usize::MAX, found).unwrap();
                 prop_assert_eq!(found, one_by_one.clone().labels());
             }
         }

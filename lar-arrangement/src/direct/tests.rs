@@ -37,7 +37,7 @@ fn direct(
     (rule, detail, pairs_a_facet): (FillRule, Detail, usize),
 ) -> Result<SolidComplex, BooleanError> {
     let question = Question { expression, rule, detail, pairs_a_facet };
-    arranger.run_boolean(surfaces, question).map(|(surface, _)| surface)
+    arranger.solid_surface(surfaces, question).map(|(surface, _)| surface)
 }
 
 #[track_caller]
