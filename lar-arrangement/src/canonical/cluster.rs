@@ -5,6 +5,7 @@ use super::scan::{Scan, Shape};
 use super::{Input, Tolerance};
 use crate::counting::sorted_by_place;
 use crate::kernel::{Geometry, Plane};
+use crate::parallel;
 use crate::soup::Soup;
 use crate::split::offsets;
 use crate::union_find::UnionFind;
@@ -197,14 +198,14 @@ impl Search<'_> {
     fn choose_planes(&self, clusters: &mut [Cluster]) {
         let mut n_at = vec![0u32; self.geometry().n_points()];
         clusters.iter().flat_map(Cluster::all_corners).for_each(|p| n_at[p as usize] += 1);
-        for cluster in clusters {
+        parallel::each(clusters.iter_mut().collect(), |cluster| {
             let key = cluster.all_corners().max_by_key(|&p| (n_at[p as usize], std::cmp::Reverse(p)));
-            let Some(key) = key else { continue };
+            let Some(key) = key else { return };
             cluster.plane = cluster.fit.canonical(self.geometry(), &cluster.corners, cluster.tolerance, key);
             let is_on_plane = |p: &u32| cluster.plane.side(self.geometry().nearest_grid_point(*p)) == 0;
             cluster.is_settled = cluster.corners.iter().all(is_on_plane);
             cluster.moves_others = cluster.is_settled && !cluster.touching.iter().all(is_on_plane);
-        }
+        });
     }
 
     /// Gives the clusters the corners of other facets that lie on them or nearly so: a corner that rests on a face. These

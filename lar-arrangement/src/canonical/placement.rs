@@ -5,6 +5,7 @@ use super::vector::distance;
 use super::{Report, carried, renumbered};
 use crate::grid_points::PointTable;
 use crate::kernel::{CanonicalPoints, Geometry, Plane, RationalPoint, Sign, dominant_axis};
+use crate::parallel;
 use crate::soup::{Placed, Soup};
 use rustc_hash::FxHashMap;
 
@@ -22,15 +23,22 @@ pub(super) fn on_planes(
         cluster.corners.iter().for_each(|&p| of_point[p as usize].push((id, true)));
         cluster.touching.iter().for_each(|&p| of_point[p as usize].push((id, false)));
     }
-    let mut placement = Placement::default();
-    for (p, candidates) in (0..).zip(&mut of_point) {
-        candidates.sort_by_key(|&(c, is_own): &(u32, bool)| {
+    let at = |p: u32| soup.geometry.nearest_grid_point(p);
+    let concerned = parallel::select(of_point.len(), |p| !of_point[p as usize].is_empty());
+    let places = parallel::map(concerned.len(), |i| {
+        let mut candidates: Vec<(u32, bool)> = of_point[concerned[i] as usize].clone();
+        candidates.sort_by_key(|&(c, is_own)| {
             let cluster = &clusters[c as usize];
             (!cluster.is_settled, !is_own, std::cmp::Reverse(cluster.corners.len()), c)
         });
-        let at = soup.geometry.nearest_grid_point(p);
-        let (point, on) = placed(at, candidates, clusters);
-        report.note(distance(at.map(|x| x as f64), point.rounded()));
+        placed(at(concerned[i]), &candidates, clusters)
+    });
+    let mut places = concerned.iter().zip(places).peekable();
+    let mut placement = Placement::default();
+    for p in 0..of_point.len() as u32 {
+        let moved = places.next_if(|place| *place.0 == p);
+        let (point, on) = moved.map_or_else(|| (RationalPoint::grid(at(p)), Vec::new()), |place| place.1);
+        report.note(distance(at(p).map(|x| x as f64), point.rounded()));
         placement.push(point, on);
     }
     placement.finished(soup, planes, plane_of_face)
