@@ -125,6 +125,11 @@ impl<const D: usize> Near<D> {
     fn new(b: &Aabb<D>) -> Self {
         Self { lo: b.lo.map(below), hi: b.hi.map(above) }
     }
+
+    /// The sum of the sides.
+    fn size(&self) -> f32 {
+        (0..D).map(|k| self.hi[k] - self.lo[k]).sum()
+    }
 }
 
 /// An `f32` that is not above x, and x itself where it is one. Without a branch: half of all numbers are rounded up.
@@ -378,25 +383,25 @@ impl<const D: usize> BoxTree<D> {
     pub(crate) fn pairs_of_block(&self, block: usize, mut visit: impl FnMut(u32, u32)) {
         let hull = self.near((1, block));
         self.leaves(&hull, block * WIDTH, self.group_of(1, block), &mut |other| {
-            self.pairs_with(block, other, &mut visit);
+            self.pairs_with(block, other, &mut |[a, b]| visit(self.items[a], self.items[b]));
         });
     }
 
-    /// The pairs of a leaf with those of a block that come before it.
-    fn pairs_with(&self, block: usize, other: usize, visit: &mut impl FnMut(u32, u32)) {
+    /// The pairs of a leaf with those of a block that come before it, as leaves.
+    fn pairs_with(&self, block: usize, other: usize, visit: &mut impl FnMut([usize; 2])) {
         let from = block * WIDTH;
         let before = if other < from + WIDTH { (1 << (other - from)) - 1 } else { u8::MAX };
         for bit in bits_of(self.blocks[0][block].meeting(&self.near((0, other))) & before) {
-            visit(self.items[from + bit], self.items[other]);
+            visit([from + bit, other]);
         }
     }
 
     /// All pairs of items whose boxes meet up to rounding and for which `is_wanted` holds, each once, the smaller first;
-    /// pairs of one group may be left out. O(n log n + pairs).
+    /// pairs of one group may be left out. `is_wanted` is told the items and, of each, how large it is. O(n log n + pairs).
     pub(crate) fn pairs(
         &self,
         course: &Course,
-        is_wanted: impl Fn(u32, u32) -> bool + Sync + Send,
+        is_wanted: impl Fn([u32; 2], [f32; 2]) -> bool + Sync + Send,
     ) -> Result<Vec<[u32; 2]>, Cancelled> {
         // Nodes that hold some hundred leaves, or fewer in a small tree.
         let level = (self.blocks.len() - 1).clamp(1, 3);
@@ -408,8 +413,9 @@ impl<const D: usize> BoxTree<D> {
             }
             let mut found = Vec::new();
             for [this, other] in blocks.into_iter().take_while(|_| !course.is_cancelled()) {
-                self.pairs_of_blocks(this as usize, other as usize, &mut |i, j| {
-                    if is_wanted(i, j) {
+                self.pairs_of_blocks(this as usize, other as usize, &mut |pair| {
+                    let [i, j] = pair.map(|leaf| self.items[leaf]);
+                    if is_wanted([i, j], pair.map(|leaf| self.near((0, leaf)).size())) {
                         found.push([i.min(j), i.max(j)]);
                     }
                 });
@@ -431,8 +437,8 @@ impl<const D: usize> BoxTree<D> {
         Ok(parallel::map_light(keyed.len(), |i| keyed[i].1))
     }
 
-    /// The pairs of two blocks, or of one.
-    fn pairs_of_blocks(&self, block: usize, other: usize, visit: &mut impl FnMut(u32, u32)) {
+    /// The pairs of two blocks, or of one, as leaves.
+    fn pairs_of_blocks(&self, block: usize, other: usize, visit: &mut impl FnMut([usize; 2])) {
         let hull = self.near((1, block));
         let group = self.group_of(1, block);
         for bit in bits_of(self.blocks[0][other].meeting(&hull)) {

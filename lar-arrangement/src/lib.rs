@@ -1,5 +1,6 @@
 //! Exact arrangements of polygonal surfaces as chain complexes, and Booleans over their 3-cells.
 
+mod apart;
 mod arrangement;
 mod assemble;
 mod boolean;

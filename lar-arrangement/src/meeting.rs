@@ -1,5 +1,6 @@
 //! Stage 1h: which facets may have something in common.
 
+use crate::apart;
 use crate::boxes::{Aabb, BoxTree};
 use crate::canonical::Input;
 use crate::charts::Charts;
@@ -20,7 +21,7 @@ pub(crate) struct Meeting {
     tree: OnceLock<BoxTree>,
     charts: Charts,
     stars: Stars,
-    /// Those whose boxes meet, without those that a chart or a clean point settles.
+    /// Those whose boxes meet, without those that a chart or a clean point settles, or that the plane of one keeps apart.
     pub pairs: Vec<[u32; 2]>,
 }
 
@@ -30,14 +31,18 @@ impl Meeting {
         let charts = Charts::new(soup, distance, course)?;
         let stars = Stars::new(soup, &charts, distance);
         let all = hull(soup).larger(reach);
-        let is_open = |f: u32, g: u32| !charts.are_one(f, g) && !stars.settle(&soup.geometry, f, g);
+        let is_open = |[f, g]: [u32; 2], sizes: [f32; 2]| {
+            !charts.are_one(f, g)
+                && !stars.settle(&soup.geometry, f, g)
+                && !apart::are_apart(soup, [f, g], sizes, reach)
+        };
         let tree = OnceLock::new();
         let pairs = match crowds::facets(soup, &charts, reach, &all) {
             Some(crowded) => {
                 let facet = |i: u32| crowded[i as usize];
                 let box_of = |i| box_of(soup, facet(i)).larger(reach);
                 let tree = BoxTree::grouped(&all, crowded.len(), box_of, |i| charts.of(facet(i)));
-                let pairs = tree.pairs(course, |i, j| is_open(facet(i), facet(j)))?;
+                let pairs = tree.pairs(course, |pair, sizes| is_open(pair.map(facet), sizes))?;
                 pairs.into_iter().map(|pair| pair.map(facet)).collect()
             }
             None => {
