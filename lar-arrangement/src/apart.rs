@@ -6,26 +6,11 @@
 //!
 //! The test is one of `f64` with a margin for all rounding: where it fails nothing is claimed.
 
+use crate::boxes::{LARGE, Near};
 use crate::soup::Soup;
+use crate::vector::{cross, dot, minus, size};
 
 type Vector = [f64; 3];
-
-fn minus(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-/// Not shorter than the vector.
-fn size(v: Vector) -> f64 {
-    v[0].abs() + v[1].abs() + v[2].abs()
-}
 
 /// A triangle.
 struct Triangle {
@@ -55,10 +40,15 @@ impl Triangle {
     /// reach · (|n| + 2 · d · l) for the determinant; neither |n| nor d · l is above s², for the sum s of lengths. Corners are
     /// rounded by less than 2^-12, and s is below 2^44: the determinant is off by less than s².
     fn side(&self, p: Vector, reach: f64) -> i8 {
-        let off = minus(p, self.corners[0]);
-        let s = size(self.sides[0]) + size(self.sides[1]) + size(off);
-        let (det, near) = (dot(self.normal, off), (4.0 * reach + 1.0) * s * s);
+        let (det, near) = self.height(p, 0.0, reach);
         i8::from(det > near) - i8::from(det < -near)
+    }
+
+    /// The determinant for a point, and what counts as near for points not farther from it than some length.
+    fn height(&self, p: Vector, around: f64, reach: f64) -> (f64, f64) {
+        let off = minus(p, self.corners[0]);
+        let s = size(self.sides[0]) + size(self.sides[1]) + size(off) + around;
+        (dot(self.normal, off), (4.0 * reach + 1.0) * s * s)
     }
 
     /// Whether the plane of this one keeps another triangle apart.
@@ -69,26 +59,48 @@ impl Triangle {
         let is_wider = || self.width_2() > 1.001 * other.width_2();
         is_beyond && (is_wider() || self.corners.iter().any(|&p| other.side(p, reach) != 0))
     }
+
+    /// Whether the plane of this one keeps all triangles in a box apart, none of them wider.
+    fn keeps_off_box(&self, target: &Near<3>, reach: f64) -> bool {
+        let [lo, hi] = [target.lo, target.hi].map(|side| side.map(f64::from));
+        let (middle, half) =
+            ([0, 1, 2].map(|k| (lo[k] + hi[k]) / 2.0), [0, 1, 2].map(|k| (hi[k] - lo[k]) / 2.0));
+        let spread = dot(self.normal.map(f64::abs), half);
+        let (det, near) = self.height(middle, size(half), reach);
+        // No side in the box is longer than the sum of its sides.
+        let longest = 2.0 * size(half);
+        det.abs() - spread > near && self.width_2() > 1.001 * longest * longest
+    }
 }
 
-/// Of two boxes, one is so many times as large as the other where it is worth a look: most facets in the box of a large one
-/// are apart from it, of two that are alike few.
-const LARGE: f32 = 4.0;
+fn triangle(soup: &Soup, facet: u32) -> Triangle {
+    Triangle::through(soup.geometry.base(facet).map(|p| soup.geometry.position(p)))
+}
+
+fn is_triangle(soup: &Soup, facet: u32) -> bool {
+    soup.facet_edges[facet as usize].len() == 3
+}
 
 /// Whether two facets are triangles that have nothing in common, lie farther than `reach` from each other, and not nearly in one
-/// plane: all corners of one near the plane of the wider one, as near as [`Triangle::side`] has it. Only asked of a large
-/// one and a small one, by the sizes of their boxes.
+/// plane: all corners of one near the plane of the wider one, as near as [`Triangle::side`] has it. Only asked where the box of
+/// one, as their sizes tell, is large beside the other: most of what is in the box of a large one is apart from it, of two that
+/// are alike few are.
 pub(crate) fn are_apart(soup: &Soup, pair: [u32; 2], sizes: [f32; 2], reach: f64) -> bool {
     let [large, small] = if sizes[0] > sizes[1] { pair } else { [pair[1], pair[0]] };
-    let triangle = |facet| Triangle::through(soup.geometry.base(facet).map(|p| soup.geometry.position(p)));
     sizes[0].max(sizes[1]) > LARGE * sizes[0].min(sizes[1])
-        && pair.iter().all(|&facet| soup.facet_edges[facet as usize].len() == 3)
-        && triangle(large).keeps_off(&triangle(small), reach)
+        && pair.iter().all(|&facet| is_triangle(soup, facet))
+        && triangle(soup, large).keeps_off(&triangle(soup, small), reach)
+}
+
+/// Whether a facet is apart, in this sense, from all triangles in a box.
+pub(crate) fn keeps_off(soup: &Soup, facet: u32, target: &Near<3>, reach: f64) -> bool {
+    soup.are_triangles() && triangle(soup, facet).keeps_off_box(target, reach)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::boxes::Aabb;
     use proptest::prelude::*;
 
     /// The least distance of two triangles among points of theirs with barycentric coordinates in sixths.
@@ -139,6 +151,8 @@ mod tests {
                 prop_assert!(distance(&f, &g) > reach);
                 prop_assert!(!are_nearly_coplanar(&f, &g, reach));
             }
+            let within = Near::new(&Aabb::around(g.corners));
+            prop_assert!(!f.keeps_off_box(&within, reach) || f.keeps_off(&g, reach));
         }
     }
 
@@ -150,15 +164,15 @@ mod tests {
             let corner = |x: f64, y: f64| [at[0] + x * size, at[1] + y * size, at[2] + (x + y) * size];
             Triangle::through([at, corner(1.0, 0.0), corner(0.3, 0.8)])
         };
+        let [a, b, c] = large.corners;
+        let middle: Vector = std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0);
         for width in [2f64.powi(20), 2f64.powi(30)] {
-            // At a height of a thousandth, and where the plane cuts it.
-            let off = small([0.0, 0.0, -size / 1000.0 - 3.0 * width], width);
-            assert!(
-                are_triangles_apart(&large, &off, 4.0) && are_triangles_apart(&off, &large, 2f64.powi(18))
-            );
-            let [a, b, c] = large.corners;
-            let middle = [0, 1, 2].map(|k| (a[k] + b[k] + c[k]) / 3.0 - width / 3.0);
-            assert!(!large.keeps_off(&small(middle, width), 0.0));
+            let off = small([middle[0], middle[1], middle[2] - size / 1000.0 - 3.0 * width], width);
+            assert!(large.keeps_off(&off, 4.0) && large.keeps_off(&off, 2f64.powi(18)));
+            assert!(large.keeps_off_box(&Near::new(&Aabb::around(off.corners)), 4.0));
+            let across = small(middle.map(|x| x - width / 3.0), width);
+            assert!(!large.keeps_off(&across, 0.0));
+            assert!(!large.keeps_off_box(&Near::new(&Aabb::around(across.corners)), 0.0));
         }
     }
 }

@@ -65,6 +65,9 @@ impl PartialOrd for Reach {
 /// Number of items in a block.
 pub(crate) const WIDTH: usize = 8;
 
+/// A box so many times as large as another, by the sums of their sides, is large beside it.
+pub(crate) const LARGE: f32 = 4.0;
+
 /// No group.
 pub(crate) const NO_GROUP: u32 = u32::MAX;
 
@@ -98,6 +101,11 @@ impl<const D: usize> Block<D> {
         }
     }
 
+    /// The sums of the sides of the boxes; 0 for those that are empty.
+    fn sizes(&self) -> f32x8 {
+        (1..D).fold(self.hi[0] - self.lo[0], |sum, k| sum + (self.hi[k] - self.lo[k])).max(f32x8::ZERO)
+    }
+
     /// Box i.
     fn at(&self, i: usize) -> Near<D> {
         let of = |side: &[f32x8; D]| std::array::from_fn(|k| side[k].as_array()[i]);
@@ -116,13 +124,13 @@ impl<const D: usize> Block<D> {
 
 /// A box in 32 bits, rounded outwards.
 #[derive(Clone, Copy, Debug)]
-struct Near<const D: usize> {
-    lo: [f32; D],
-    hi: [f32; D],
+pub(crate) struct Near<const D: usize> {
+    pub lo: [f32; D],
+    pub hi: [f32; D],
 }
 
 impl<const D: usize> Near<D> {
-    fn new(b: &Aabb<D>) -> Self {
+    pub(crate) fn new(b: &Aabb<D>) -> Self {
         Self { lo: b.lo.map(below), hi: b.hi.map(above) }
     }
 
@@ -383,26 +391,41 @@ impl<const D: usize> BoxTree<D> {
     pub(crate) fn pairs_of_block(&self, block: usize, mut visit: impl FnMut(u32, u32)) {
         let hull = self.near((1, block));
         self.leaves(&hull, block * WIDTH, self.group_of(1, block), &mut |other| {
-            self.pairs_with(block, other, &mut |[a, b]| visit(self.items[a], self.items[b]));
+            self.pairs_with(block, u8::MAX, other, &mut |[a, b]| visit(self.items[a], self.items[b]));
         });
     }
 
-    /// The pairs of a leaf with those of a block that come before it, as leaves.
-    fn pairs_with(&self, block: usize, other: usize, visit: &mut impl FnMut([usize; 2])) {
+    /// The pairs of a leaf with some of a block, as bits, that come before it, as leaves.
+    fn pairs_with(&self, block: usize, of: u8, other: usize, visit: &mut impl FnMut([usize; 2])) {
         let from = block * WIDTH;
         let before = if other < from + WIDTH { (1 << (other - from)) - 1 } else { u8::MAX };
-        for bit in bits_of(self.blocks[0][block].meeting(&self.near((0, other))) & before) {
+        for bit in bits_of(self.blocks[0][block].meeting(&self.near((0, other))) & before & of) {
             visit([from + bit, other]);
         }
     }
 
     /// All pairs of items whose boxes meet up to rounding and for which `is_wanted` holds, each once, the smaller first;
-    /// pairs of one group may be left out. `is_wanted` is told the items and, of each, how large it is. O(n log n + pairs).
+    /// pairs of one group may be left out. `is_wanted` is told the items and, of each, how large it is; `keeps_off` is asked
+    /// whether an item that is [large](LARGE) beside a box is in no wanted pair with what is in that. O(n log n + pairs).
     pub(crate) fn pairs(
         &self,
         course: &Course,
         is_wanted: impl Fn([u32; 2], [f32; 2]) -> bool + Sync + Send,
+        keeps_off: impl Fn(u32, &Near<D>) -> bool + Sync + Send,
     ) -> Result<Vec<[u32; 2]>, Cancelled> {
+        let giants = self.giants();
+        // Of each of two blocks the giants that keep off all of the other.
+        let kept_off = |blocks: [usize; 2]| {
+            [0, 1].map(|i| {
+                let target = self.near((1, blocks[1 - i]));
+                let is_off = |bit: &usize| {
+                    let leaf = blocks[i] * WIDTH + bit;
+                    self.near((0, leaf)).size() > LARGE * target.size()
+                        && keeps_off(self.items[leaf], &target)
+                };
+                bits_of(giants[blocks[i]]).filter(is_off).fold(0, |bits, bit| bits | 1 << bit)
+            })
+        };
         // Nodes that hold some hundred leaves, or fewer in a small tree.
         let level = (self.blocks.len() - 1).clamp(1, 3);
         let parts = course.map(self.n_nodes(level), |i| {
@@ -413,7 +436,9 @@ impl<const D: usize> BoxTree<D> {
             }
             let mut found = Vec::new();
             for [this, other] in blocks.into_iter().take_while(|_| !course.is_cancelled()) {
-                self.pairs_of_blocks(this as usize, other as usize, &mut |pair| {
+                let blocks = [this as usize, other as usize];
+                let off = if giants.is_empty() { [0; 2] } else { kept_off(blocks) };
+                self.pairs_of_blocks(blocks, off, &mut |pair| {
                     let [i, j] = pair.map(|leaf| self.items[leaf]);
                     if is_wanted([i, j], pair.map(|leaf| self.near((0, leaf)).size())) {
                         found.push([i.min(j), i.max(j)]);
@@ -437,16 +462,25 @@ impl<const D: usize> BoxTree<D> {
         Ok(parallel::map_light(keyed.len(), |i| keyed[i].1))
     }
 
-    /// The pairs of two blocks, or of one, as leaves.
-    fn pairs_of_blocks(&self, block: usize, other: usize, visit: &mut impl FnMut([usize; 2])) {
+    /// The pairs of two blocks, or of one, as leaves; `off` are those of each, as bits, that need not be looked at.
+    fn pairs_of_blocks(&self, [block, other]: [usize; 2], off: [u8; 2], visit: &mut impl FnMut([usize; 2])) {
         let hull = self.near((1, block));
         let group = self.group_of(1, block);
-        for bit in bits_of(self.blocks[0][other].meeting(&hull)) {
+        for bit in bits_of(self.blocks[0][other].meeting(&hull) & !off[1]) {
             let leaf = other * WIDTH + bit;
             if !self.is_within(group, 0, leaf) {
-                self.pairs_with(block, leaf, visit);
+                self.pairs_with(block, !off[0], leaf, visit);
             }
         }
+    }
+
+    /// The leaves of each block, as bits, that are far larger than most; empty when there are none. O(n).
+    fn giants(&self) -> Vec<u8> {
+        let sizes = parallel::map_light(self.blocks[0].len(), |block| self.blocks[0][block].sizes());
+        let mean = sizes.iter().map(|sizes| sizes.reduce_add()).sum::<f32>() / self.items.len() as f32;
+        let limit = f32x8::splat(LARGE * LARGE * mean);
+        let giants = parallel::map_light(sizes.len(), |block| sizes[block].simd_gt(limit).to_bitmask() as u8);
+        if giants.iter().all(|&bits| bits == 0) { Vec::new() } else { giants }
     }
 
     /// The pairs of a block under `this` with itself or one after it under `other` that are not of one group: `other` is
@@ -505,7 +539,7 @@ mod tests {
             }
             expected.sort_unstable();
             let tree = BoxTree::new(&boxes);
-            let mut found = tree.pairs(&Course::new(Control::default(), &[]), |_, _| true).unwrap();
+            let mut found = tree.pairs(&Course::new(Control::default(), &[]), |_, _| true, |_, _| false).unwrap();
             found.sort_unstable();
             prop_assert_eq!(found, expected);
             if let Some(target) = boxes.first() {

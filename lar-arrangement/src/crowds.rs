@@ -228,7 +228,7 @@ mod tests {
         assert_eq!(crowded.is_some(), expected);
         let Some(crowded) = crowded else { return };
         let is_other = |[i, j]: [u32; 2], _: [f32; 2]| !charts.are_one(i, j);
-        let meeting = BoxTree::new(&boxes).pairs(&course, is_other).expect("nobody cancels");
+        let meeting = BoxTree::new(&boxes).pairs(&course, is_other, |_, _| false).expect("nobody cancels");
         assert!(!meeting.is_empty());
         assert!(meeting.as_flattened().iter().all(|f| crowded.binary_search(f).is_ok()));
     }

@@ -428,7 +428,7 @@ impl<'a> Local<'a> {
         }
         let boxes: Vec<Aabb> =
             lines.iter().map(|l| Aabb::around(l.ends.map(|v| self.vertex(v).at))).collect();
-        for [i, j] in BoxTree::new(&boxes).pairs(&self.from.course, |_, _| true)? {
+        for [i, j] in BoxTree::new(&boxes).pairs(&self.from.course, |_, _| true, |_, _| false)? {
             self.from.course.go_on()?;
             self.cross_pair(lines, i as usize, j as usize);
         }

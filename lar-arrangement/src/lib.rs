@@ -48,6 +48,7 @@ mod subdivision;
 mod tiles;
 mod trace;
 mod union_find;
+mod vector;
 mod visible;
 mod winding;
 mod wrap;

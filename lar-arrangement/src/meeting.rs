@@ -1,7 +1,7 @@
 //! Stage 1h: which facets may have something in common.
 
 use crate::apart;
-use crate::boxes::{Aabb, BoxTree};
+use crate::boxes::{Aabb, BoxTree, Near};
 use crate::canonical::Input;
 use crate::charts::Charts;
 use crate::crowds;
@@ -36,19 +36,24 @@ impl Meeting {
                 && !stars.settle(&soup.geometry, f, g)
                 && !apart::are_apart(soup, [f, g], sizes, reach)
         };
+        let keeps_off = |f: u32, target: &Near<3>| apart::keeps_off(soup, f, target, reach);
         let tree = OnceLock::new();
         let pairs = match crowds::facets(soup, &charts, reach, &all) {
             Some(crowded) => {
                 let facet = |i: u32| crowded[i as usize];
                 let box_of = |i| box_of(soup, facet(i)).larger(reach);
                 let tree = BoxTree::grouped(&all, crowded.len(), box_of, |i| charts.of(facet(i)));
-                let pairs = tree.pairs(course, |pair, sizes| is_open(pair.map(facet), sizes))?;
+                let pairs = tree.pairs(
+                    course,
+                    |pair, sizes| is_open(pair.map(facet), sizes),
+                    |i, target| keeps_off(facet(i), target),
+                )?;
                 pairs.into_iter().map(|pair| pair.map(facet)).collect()
             }
             None => {
                 let box_of = |f| box_of(soup, f).larger(reach);
                 let all_facets = BoxTree::grouped(&all, soup.n_facets(), box_of, |f| charts.of(f));
-                tree.get_or_init(|| all_facets).pairs(course, is_open)?
+                tree.get_or_init(|| all_facets).pairs(course, is_open, keeps_off)?
             }
         };
         Ok(Self { tree, charts, stars, pairs })

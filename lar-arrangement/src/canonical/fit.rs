@@ -1,7 +1,7 @@
 //! The plane of some points on the grid, and one with small coefficients near it.
 
-use super::vector::{cross, distance, dot, minus};
 use crate::kernel::{Geometry, Plane, dominant_axis};
+use crate::vector::{cross, distance, dot, minus};
 
 /// Coefficients of a canonical plane stay within ±2^40.
 const COEFFICIENT: i128 = 1 << 40;

@@ -14,7 +14,6 @@ mod fit;
 mod near;
 mod placement;
 mod scan;
-mod vector;
 
 use crate::charts::Charts;
 use crate::grid_points::PointTable;
@@ -22,8 +21,8 @@ use crate::half_edges::MANY;
 use crate::kernel::Geometry;
 use crate::soup::{Placed, Soup};
 use crate::stars::Stars;
+use crate::vector::distance;
 pub(crate) use scan::Scan;
-use vector::distance;
 
 /// How far, in grid steps, coordinates may lie from what was meant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]

@@ -1,12 +1,12 @@
 //! Where the corners of clusters go: onto one plane along an axis, onto the line of two, to the point of three.
 
 use super::cluster::Cluster;
-use super::vector::distance;
 use super::{Report, carried, renumbered};
 use crate::grid_points::PointTable;
 use crate::kernel::{CanonicalPoints, Geometry, Plane, RationalPoint, Sign, dominant_axis};
 use crate::parallel;
 use crate::soup::{Placed, Soup};
+use crate::vector::distance;
 use rustc_hash::FxHashMap;
 
 /// The vertices of a soup with the corners of the clusters on their planes, and the plane of each face.

@@ -1,10 +1,10 @@
 //! Which points are nearly one, and which pairs of facets lie nearly in one plane.
 
-use super::vector::{distance, dot, minus};
 use super::{Input, Tolerance, near};
 use crate::boxes::NO_GROUP;
 use crate::parallel;
 use crate::progress::{Cancelled, Course};
+use crate::vector::{distance, dot, minus, size};
 
 /// Pairs of facets a chunk of work.
 const PAIRS_A_CHUNK: usize = 1 << 11;
@@ -136,11 +136,6 @@ impl Triangle {
         // Rounding changes the determinant by less than 2^-48 · s³, and s is below 2^44.
         dot(self.normal, off).abs() > (4.0 * tolerance + 1.0) * s * s
     }
-}
-
-/// Not shorter than the vector.
-fn size(v: [f64; 3]) -> f64 {
-    v.iter().map(|x| x.abs()).sum()
 }
 
 fn are_nearly_coplanar(input: &Input, [f, g]: [u32; 2], shape: impl Fn(u32) -> Shape) -> bool {
