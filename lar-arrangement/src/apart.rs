@@ -77,10 +77,6 @@ fn triangle(soup: &Soup, facet: u32) -> Triangle {
     Triangle::through(soup.geometry.base(facet).map(|p| soup.geometry.position(p)))
 }
 
-fn is_triangle(soup: &Soup, facet: u32) -> bool {
-    soup.facet_edges[facet as usize].len() == 3
-}
-
 /// Whether two facets are triangles that have nothing in common, lie farther than `reach` from each other, and not nearly in one
 /// plane: all corners of one near the plane of the wider one, as near as [`Triangle::side`] has it. Only asked where the box of
 /// one, as their sizes tell, is large beside the other: most of what is in the box of a large one is apart from it, of two that
@@ -88,7 +84,7 @@ fn is_triangle(soup: &Soup, facet: u32) -> bool {
 pub(crate) fn are_apart(soup: &Soup, pair: [u32; 2], sizes: [f32; 2], reach: f64) -> bool {
     let [large, small] = if sizes[0] > sizes[1] { pair } else { [pair[1], pair[0]] };
     sizes[0].max(sizes[1]) > LARGE * sizes[0].min(sizes[1])
-        && pair.iter().all(|&facet| is_triangle(soup, facet))
+        && pair.iter().all(|&facet| soup.is_triangle(facet))
         && triangle(soup, large).keeps_off(&triangle(soup, small), reach)
 }
 

@@ -474,7 +474,7 @@ impl<const D: usize> BoxTree<D> {
         }
     }
 
-    /// The leaves of each block, as bits, that are far larger than most; empty when there are none. O(n).
+    /// The leaves of each block, as bits, that are large beside what is large beside the mean, as only few can be; empty when there are none. O(n).
     fn giants(&self) -> Vec<u8> {
         let sizes = parallel::map_light(self.blocks[0].len(), |block| self.blocks[0][block].sizes());
         let mean = sizes.iter().map(|sizes| sizes.reduce_add()).sum::<f32>() / self.items.len() as f32;

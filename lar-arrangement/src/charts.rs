@@ -113,7 +113,7 @@ fn looks(soup: &Soup, margin: f64) -> Vec<u8> {
 }
 
 fn look(soup: &Soup, facet: u32, margin: f64) -> u8 {
-    if soup.facet_edges[facet as usize].len() != 3 {
+    if !soup.is_triangle(facet) {
         return NOWHERE;
     }
     let (axis, up) = soup.geometry.dominant_axis(facet);

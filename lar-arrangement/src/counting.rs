@@ -20,7 +20,7 @@ pub(crate) fn offsets_of(n: usize, length: impl Fn(usize) -> u32 + Sync + Send) 
     if parallel::n_threads() == 1 {
         return offsets((0..n).map(length));
     }
-    let (n_chunks, range) = parallel::chunks(n, 1 << 12);
+    let (n_chunks, range) = parallel::chunks(n, parallel::LIGHT_CHUNK);
     let begins = offsets(parallel::map(n_chunks, |i| range(i).map(&length).sum()).into_iter());
     let mut out = parallel::zeros(n + 1);
     let parts = parallel::cut(&mut out[1..], (0..n_chunks).map(|i| range(i).len()));

@@ -9,7 +9,7 @@ const BITS: usize = 20;
 
 /// The box around n boxes.
 pub(crate) fn hull<const D: usize>(n: usize, box_of: impl Fn(u32) -> Aabb<D> + Sync + Send) -> Aabb<D> {
-    let (n_chunks, range) = parallel::chunks(n, 1 << 12);
+    let (n_chunks, range) = parallel::chunks(n, parallel::LIGHT_CHUNK);
     let hulls = parallel::map(n_chunks, |chunk| {
         range(chunk).fold(Aabb::EMPTY, |all, i| all.joined(&box_of(i as u32)))
     });

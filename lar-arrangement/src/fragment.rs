@@ -563,7 +563,7 @@ impl<'a> Local<'a> {
     }
 
     fn is_one_triangle(&self) -> bool {
-        matches!(self.group, &[facet] if self.from.soup.facet_edges[facet as usize].len() == 3)
+        matches!(self.group, &[facet] if self.from.soup.is_triangle(facet))
     }
 
     fn uses_of(&self, piece: u32) -> &[Use] {

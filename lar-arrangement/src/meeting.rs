@@ -137,8 +137,44 @@ pub(crate) fn box_of(soup: &Soup, facet: u32) -> Aabb {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::crossing::{self, Contacts, Scratch};
+    use crate::progress::Control;
     use crate::soup::Placed;
-    use lar_core::{Surface, cuboid_grid, icosphere};
+    use lar_core::{Points, Surface, cuboid_grid, icosphere};
+
+    /// Pairs that the plane of a large triangle keeps apart have no contact, and are most of those in its box.
+    #[test]
+    fn what_a_large_triangle_is_kept_apart_from_does_not_touch_it() {
+        let ball = Surface::from_triangles("ball", &icosphere(4));
+        let large = |points: [[f64; 3]; 3]| {
+            let mut surface = Surface::new("large", Points::from_xyz(&points));
+            surface.push_face([&[0, 1, 2][..]], 1);
+            surface
+        };
+        let through = large([[-2.0, -2.0, -1.5], [2.0, -1.0, 0.5], [0.5, 2.0, 1.5]]);
+        let beside = large([[3.0, 0.0, 0.1], [0.0, 3.0, 0.1], [0.0, 0.1, 3.0]]);
+        let surfaces = [ball, through, beside];
+        let soup = Soup::new(&surfaces, Placed::snapped(&surfaces, |_, _| 0.0).expect("finite points"));
+        let n = soup.n_facets() as u32;
+        let course = Course::new(Control::default(), &[]);
+        for reach in [0.0, 8.0] {
+            let meeting = Meeting::new(&soup, reach, reach, &course).expect("nobody cancels");
+            let (mut n_touching, mut n_left_out) = (0, 0);
+            for (f, large) in (0..n - 2).flat_map(|f| [(f, n - 2), (f, n - 1)]) {
+                if !box_of(&soup, f).meets(&box_of(&soup, large)) {
+                    continue;
+                }
+                let mut contacts = Contacts::default();
+                crossing::meet(&soup, f, large, &mut Scratch::default(), &mut contacts);
+                let is_pair = meeting.pairs.contains(&[f, large]);
+                let touches = contacts.crossing_pairs > 0 || !contacts.coplanar.is_empty();
+                assert!(is_pair || !touches, "{f} touches {large}");
+                n_touching += u32::from(touches);
+                n_left_out += u32::from(!is_pair);
+            }
+            assert!(n_touching > 100 && n_left_out > 1000, "{n_touching} touch, {n_left_out} are left out");
+        }
+    }
 
     #[test]
     fn facets_are_found_without_a_tree() {

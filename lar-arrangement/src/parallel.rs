@@ -223,6 +223,9 @@ pub(crate) fn map<R: Send>(n: usize, f: impl Fn(usize) -> R + Sync + Send) -> Ve
 /// So many small items are worth another thread.
 const WORTH_A_THREAD: usize = 1024;
 
+/// So many are a chunk of light work: where there are fewer chunks one thread waits long for the other's last.
+pub(crate) const LIGHT_CHUNK: usize = 1 << 12;
+
 /// How many of n items of light work are a piece.
 fn light_piece(n: usize) -> usize {
     n.div_ceil(PIECES).max(WORTH_A_THREAD)
@@ -407,8 +410,7 @@ pub(crate) fn for_each(n: usize, f: impl Fn(usize) + Sync + Send) {
 
 /// Applies `f` to chunks of some items, each with the place that it begins at.
 pub(crate) fn each_chunk<T: Send>(items: &mut [T], f: impl Fn(usize, &mut [T]) + Sync + Send) {
-    const CHUNK: usize = 1 << 12;
-    let chunks = (0..).step_by(CHUNK).zip(items.chunks_mut(CHUNK));
+    let chunks = (0..).step_by(LIGHT_CHUNK).zip(items.chunks_mut(LIGHT_CHUNK));
     each(chunks.collect(), |(begin, chunk)| f(begin, chunk));
 }
 
@@ -427,13 +429,13 @@ pub(crate) fn concat<T: Copy + Default + Send + Sync>(lists: &[Vec<T>]) -> Vec<T
 
 /// Whether something holds for all of 0..n.
 pub(crate) fn all(n: usize, holds: impl Fn(usize) -> bool + Sync + Send) -> bool {
-    let (n_chunks, range) = chunks(n, 1 << 12);
+    let (n_chunks, range) = chunks(n, LIGHT_CHUNK);
     map(n_chunks, |i| range(i).all(&holds)).into_iter().all(|holds| holds)
 }
 
 /// The numbers below n that are to be kept, ascending.
 pub(crate) fn select(n: usize, keep: impl Fn(u32) -> bool + Sync + Send) -> Vec<u32> {
-    let (n_chunks, range) = chunks(n, 1 << 12);
+    let (n_chunks, range) = chunks(n, LIGHT_CHUNK);
     let kept = |i| {
         let (mut kept, mut n) = (vec![0; range(i).len()], 0);
         // Without a branch: often about as many are kept as are not.

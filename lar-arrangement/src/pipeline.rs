@@ -219,11 +219,11 @@ impl<'a> Arranger<'a> {
         rest: impl FnOnce(Soup, Meeting, Stats, &Course) -> Result<R, E> + Send,
     ) -> Result<R, E> {
         let team = Team::new(self.threads);
-        let of_faces = WORK_A_FACE * surfaces.iter().map(Surface::n_faces).sum::<usize>();
+        let of_faces = WORK_A_FACE.saturating_mul(surfaces.iter().map(Surface::n_faces).sum());
         team.work(of_faces, || {
             let (mut stats, course) = (Stats::default(), Course::new(self.control, plan));
             let (soup, meeting) = self.soup_and_pairs(surfaces, &mut stats, &course)?;
-            let of_pairs = WORK_A_PAIR * meeting.pairs.len();
+            let of_pairs = WORK_A_PAIR.saturating_mul(meeting.pairs.len());
             team.work(of_faces.max(of_pairs), || rest(soup, meeting, stats, &course))?
         })?
     }

@@ -223,6 +223,11 @@ impl Soup {
         self.facet_edges.indices().len() == 3 * self.n_facets()
     }
 
+    /// Whether a facet has three edges.
+    pub(crate) fn is_triangle(&self, facet: u32) -> bool {
+        self.facet_edges[facet as usize].len() == 3
+    }
+
     /// Whether every polygon is a triangle.
     pub(crate) fn are_lone_triangles(&self) -> bool {
         self.are_triangles() && self.polygon_flat.len() == self.n_facets()

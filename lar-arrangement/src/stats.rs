@@ -20,7 +20,7 @@ pub struct Stats {
     pub moved_points: u64,
     /// The farthest that one of them moved, in the input's unit of length.
     pub farthest_move: f64,
-    /// Pairs of facets whose boxes meet.
+    /// Pairs of facets whose boxes meet and that are not known to be apart from what is around them.
     pub pairs_tested: u64,
     /// Pairs of facets with a point in common beyond shared corners.
     pub pairs_crossing: u64,

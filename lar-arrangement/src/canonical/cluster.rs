@@ -127,7 +127,7 @@ impl Search<'_> {
 
     fn is_triangle(&self, polygon: u32) -> bool {
         let facets = self.facets(polygon);
-        facets.len() == 1 && self.input.soup.facet_edges[facets.start as usize].len() == 3
+        facets.len() == 1 && self.input.soup.is_triangle(facets.start)
     }
 
     /// The corners of some polygons, ascending.

@@ -66,7 +66,7 @@ fn in_question(input: &Input) -> Vec<u32> {
     if input.pairs.len() < n_points {
         let may_be_near = parallel::select(input.pairs.len(), |pair| {
             let [f, g] = input.pairs[pair as usize];
-            !are_triangles_apart(input, f, g)
+            !have_corners_apart(input, f, g)
         });
         may_be_near.iter().flat_map(|&pair| input.pairs[pair as usize]).for_each(&mut see);
     } else {
@@ -78,9 +78,9 @@ fn in_question(input: &Input) -> Vec<u32> {
 }
 
 /// Whether two facets are triangles without corners that are near and not the same.
-fn are_triangles_apart(input: &Input, f: u32, g: u32) -> bool {
+fn have_corners_apart(input: &Input, f: u32, g: u32) -> bool {
     let soup = input.soup;
-    if [f, g].iter().any(|&facet| soup.facet_edges[facet as usize].len() != 3) {
+    if ![f, g].iter().all(|&facet| soup.is_triangle(facet)) {
         return false;
     }
     let corners = |facet: u32| soup.geometry.base(facet).map(|p| (p, soup.geometry.position(p)));

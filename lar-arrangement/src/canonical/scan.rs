@@ -126,7 +126,7 @@ impl Triangle {
     /// (1 + 2 · distance / width) with width = |n| / longest side. No length is above s, and |n| not above s².
     fn is_bent(&self, input: &Input, side: usize, other: u32, tolerance: f64) -> bool {
         let geometry = &input.soup.geometry;
-        if input.charts.of(other) == NO_GROUP && input.soup.facet_edges[other as usize].len() != 3 {
+        if input.charts.of(other) == NO_GROUP && !input.soup.is_triangle(other) {
             return false;
         }
         let (p, q) = (self.base[side], self.base[(side + 1) % 3]);

@@ -45,7 +45,7 @@ fn input_triangle(soup: &Soup, facet: u32) -> Option<[u32; 3]> {
     let polygon = Some(&soup.facet_polygon[f]);
     let is_alone =
         (f == 0 || soup.facet_polygon.get(f - 1) != polygon) && soup.facet_polygon.get(f + 1) != polygon;
-    (is_alone && soup.facet_edges[f].len() == 3).then(|| soup.geometry.base(facet))
+    (is_alone && soup.is_triangle(facet)).then(|| soup.geometry.base(facet))
 }
 
 fn may_be_double(soup: &Soup, facet: u32) -> bool {
