@@ -451,12 +451,10 @@ impl<const D: usize> BoxTree<D> {
         if self.ranks.is_empty() {
             return Ok(pairs);
         }
-        // The order that there would be without groups: what is found of these shows in no result.
+        // The order along the curve: what is found of groups, and which items are there besides, shows in no result.
         let mut keyed = parallel::map_light(pairs.len(), |i| {
             let [a, b] = pairs[i].map(|item| u64::from(self.ranks[item as usize]));
-            let (low, high) = (a.min(b), a.max(b));
-            let (block, at) = (low / WIDTH as u64, low % WIDTH as u64);
-            ((block << 32 | high) * WIDTH as u64 + at, pairs[i])
+            (a.min(b) << 32 | a.max(b), pairs[i])
         });
         parallel::sort_distinct_by(&mut keyed, |a, b| a.0.cmp(&b.0));
         Ok(parallel::map_light(keyed.len(), |i| keyed[i].1))

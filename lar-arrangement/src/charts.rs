@@ -1,8 +1,8 @@
 //! Stage 1e: charts, the parts of a mesh that are seen side by side along a coordinate axis: nothing in them meets but
 //! at shared corners and edges.
 //!
-//! Triangles that look along the same axis most and are joined by edges all turn counter-clockwise when they are
-//! projected along it. How many of them cover a point of the plane is the winding number of their boundary about it.
+//! Triangles that look along the same axis and are joined by edges all turn counter-clockwise when they are projected
+//! along it. How many of them cover a point of the plane is the winding number of their boundary about it.
 //! When the boundary does not meet itself and has only one loop that turns counter-clockwise, that number is 0 or 1: the
 //! triangles are the graph of a function.
 //!
@@ -14,6 +14,10 @@
 //! ```
 //!
 //! (Volino and Magnenat-Thalmann found collisions of cloth with itself in this way, Computer Graphics Forum 13, 1994.)
+//! A facet that looks between the axes is in the charts of several: charts overlap, and whatever is near a border of one is
+//! well inside of another. Joined facets that look along the same axes are a *region*: but for the edges between regions,
+//! the mesh is looked at once for all charts.
+//!
 //! The test is one of `f64` with a margin for all rounding: where it fails nothing is claimed. The margin also keeps
 //! corners without a common triangle farther apart than points that are nearly one.
 
@@ -25,25 +29,74 @@ use crate::progress::{Cancelled, Course};
 use crate::soup::Soup;
 use crate::union_find::UnionFind;
 use std::ops::Range;
-
-/// Facets a chunk of work.
-const FACETS_A_CHUNK: usize = 1 << 12;
+use std::sync::atomic::AtomicBool;
+use std::sync::atomic::Ordering::Relaxed;
 
 /// Smaller charts are not worth their boundaries.
 const SMALL: usize = 16;
 
-/// No direction that a facet looks in.
-const NOWHERE: u8 = 6;
+/// Facets look along an axis when their normal has so much of its length there: up to 72 degrees away from it. Charts
+/// then overlap by 17 degrees at least, as every normal is nearer than 55 to some axis. Where the mesh is rough such wide
+/// charts cover themselves, and 66 degrees are tried.
+const LOOKS: [f64; 2] = [0.3, 0.4];
+/// Boundaries of so few edges are swept, without a tree.
+const SHORT: usize = 256;
+/// A chart of one facet in so many is large.
+const LARGE: usize = 64;
 
 /// The charts of a soup.
 #[derive(Debug)]
 pub(crate) struct Charts {
-    /// The chart of each facet, or `NO_GROUP`.
-    of_facet: Vec<u32>,
+    /// The region of each facet: its facets are in the same charts.
+    region: Vec<u32>,
+    /// The charts of each region.
+    of_region: Vec<Shared>,
     /// The facets in no chart, ascending.
     pub without: Vec<u32>,
-    /// Directed edges of the charts' boundaries by chart: those on both sides of which there is not the same one.
-    boundaries: Vec<Vec<[u32; 2]>>,
+    /// Points inside the mesh whose facets are in charts, but not all in one, ascending.
+    pub between: Vec<u32>,
+}
+
+/// The charts that all of some facets are in: at most one along each axis, a number from 1 in a field of its own, or
+/// `NONE`. All fields are 0 when there are no facets.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Shared(u64);
+
+/// Bits of a number.
+const BITS: u32 = 20;
+/// No chart along an axis.
+const NONE: u64 = (1 << BITS) - 1;
+/// Fields with a bit between them.
+const FIELD: u32 = BITS + 1;
+const ALL: u64 = 1 | 1 << FIELD | 1 << (2 * FIELD);
+
+impl Shared {
+    const NOTHING: Self = Self(NONE * ALL);
+
+    fn new(charts: [u32; 3]) -> Self {
+        let number = |k: usize| (u64::from(charts[k]) + 1).clamp(1, NONE);
+        Self(number(0) | number(1) << FIELD | number(2) << (2 * FIELD))
+    }
+
+    /// Those that are shared with others, too. Without branches: voxels are many.
+    pub(crate) fn with(self, other: Self) -> Self {
+        // A field that differs carries into the bit above it.
+        let differ = ((self.0 ^ other.0) + NONE * ALL) & (ALL << BITS);
+        let none = differ - (differ >> BITS);
+        let both = self.0 != 0 && other.0 != 0;
+        Self(self.0 | other.0 | if both { none } else { 0 })
+    }
+
+    /// Whether there are facets that are not all in one chart.
+    pub(crate) fn is_nothing(self) -> bool {
+        self == Self::NOTHING
+    }
+
+    /// Some chart.
+    fn any(self) -> u32 {
+        let charts = [0, 1, 2].map(|k| self.0 >> (k * FIELD) & NONE);
+        charts.into_iter().find(|&chart| chart != NONE).map_or(NO_GROUP, |chart| chart as u32 - 1)
+    }
 }
 
 impl Charts {
@@ -58,71 +111,103 @@ impl Charts {
         // bits; a product of them is off by a 2^-53rd of it, so a cross product over a length by less than one step: four
         // are more than enough.
         let margin = 2.0 * distance + 4.0;
-        let looks = looks(soup, margin);
-        let (mut of_facet, axes) = candidates(soup, &looks);
-        let boundaries = boundaries(soup, &of_facet, axes.len());
-        let quiet = course.quiet();
-        let holds = course.map(axes.len(), |chart| {
-            let outline =
-                Outline { geometry: &soup.geometry, look: axes[chart], margin, edges: &boundaries[chart] };
-            outline.is_once_around(&quiet)
+        let [wide, narrow] = LOOKS;
+        match Self::of_looks(soup, wide, margin, n / LARGE, course)? {
+            Some(charts) => Ok(charts),
+            None => Ok(Self::of_looks(soup, narrow, margin, n, course)?.unwrap_or_else(|| Self::none(n))),
+        }
+    }
+
+    /// The charts of facets that look along an axis with so much of their normals; none when one of more than so many facets
+    /// would cover itself.
+    fn of_looks(
+        soup: &Soup,
+        share: f64,
+        margin: f64,
+        most: usize,
+        course: &Course,
+    ) -> Result<Option<Self>, Cancelled> {
+        let looks = looks(soup, share, margin);
+        let regions = Regions::new(soup, &looks);
+        let (mut of_region, charts) = regions.candidates(soup);
+        let boundaries = regions.boundaries(soup, &of_region, charts.len());
+        let (quiet, is_given_up) = (course.quiet(), AtomicBool::new(false));
+        let holds = course.map(charts.len(), |i| {
+            let Chart { look, size } = charts[i];
+            let outline = Outline { geometry: &soup.geometry, look, margin, edges: &boundaries[i] };
+            let holds = outline.is_once_around(&|| quiet.is_cancelled() || is_given_up.load(Relaxed));
+            if !holds && size > most {
+                is_given_up.store(true, Relaxed);
+            }
+            holds
         })?;
-        parallel::each_chunk(&mut of_facet, |_, charts| {
-            let is_none = |chart: &&mut u32| **chart != NO_GROUP && !holds[**chart as usize];
-            charts.iter_mut().filter(is_none).for_each(|chart| *chart = NO_GROUP);
-        });
-        let without = parallel::select(n, |f| of_facet[f as usize] == NO_GROUP);
-        Ok(Self { of_facet, without, boundaries })
+        if is_given_up.into_inner() {
+            return Ok(None);
+        }
+        for chart in of_region.as_flattened_mut() {
+            if *chart != NO_GROUP && !holds[*chart as usize] {
+                *chart = NO_GROUP;
+            }
+        }
+        let of_region: Vec<Shared> = of_region.into_iter().map(Shared::new).collect();
+        let between = regions.between(soup, &of_region);
+        let region = regions.of_facet;
+        let without =
+            parallel::select(soup.n_facets(), |f| of_region[region[f as usize] as usize].is_nothing());
+        Ok(Some(Self { region, of_region, without, between }))
     }
 
     /// No chart.
     pub(crate) fn none(n_facets: usize) -> Self {
         let without = (0..n_facets as u32).collect();
-        Self { of_facet: vec![NO_GROUP; n_facets], without, boundaries: Vec::new() }
+        Self { region: vec![0; n_facets], of_region: vec![Shared::NOTHING], without, between: Vec::new() }
     }
 
-    /// The chart of a facet, or `NO_GROUP`.
+    /// All charts of a facet.
+    pub(crate) fn all(&self, facet: u32) -> Shared {
+        self.of_region[self.region[facet as usize] as usize]
+    }
+
+    /// One of the charts of a facet, or `NO_GROUP`.
     pub(crate) fn of(&self, facet: u32) -> u32 {
-        self.of_facet[facet as usize]
+        self.all(facet).any()
     }
 
     /// Whether both facets are in one chart.
     pub(crate) fn are_one(&self, f: u32, g: u32) -> bool {
-        self.of(f) != NO_GROUP && self.of(f) == self.of(g)
-    }
-
-    /// Ends of edges between charts, or between one and other facets.
-    pub(crate) fn boundary_points(&self) -> impl Iterator<Item = u32> + '_ {
-        self.boundaries.iter().flatten().map(|edge| edge[0])
+        !self.all(f).with(self.all(g)).is_nothing()
     }
 }
 
-/// For each facet the axis along which its normal is longest, twice, and 1 more when it points down; `NOWHERE` for those
-/// that are no triangles, or thin as seen along the axis.
-fn looks(soup: &Soup, margin: f64) -> Vec<u8> {
-    let mut looks = parallel::map_light(soup.n_facets(), |f| look(soup, f as u32, margin));
+/// For each facet the axes along which it looks, 1 << 2 · axis, twice that when it looks down; 0 for those that are no
+/// triangles, and nothing along axes where they are thin.
+fn looks(soup: &Soup, share: f64, margin: f64) -> Vec<u8> {
+    let mut looks = parallel::map_light(soup.n_facets(), |f| look(soup, f as u32, share, margin));
     if !parallel::all(soup.edges.len(), |edge| !soup.facets_of_edge[edge].contains(&MANY)) {
         let has_many = |code: &u32| soup.facets_of_edge[(code / 2) as usize].contains(&MANY);
         for (look, edges) in looks.iter_mut().zip(soup.facet_edges.iter()) {
             if edges.iter().any(has_many) {
-                *look = NOWHERE;
+                *look = 0;
             }
         }
     }
     looks
 }
 
-fn look(soup: &Soup, facet: u32, margin: f64) -> u8 {
+fn look(soup: &Soup, facet: u32, share: f64, margin: f64) -> u8 {
     if !soup.is_triangle(facet) {
-        return NOWHERE;
+        return 0;
     }
-    let (axis, up) = soup.geometry.dominant_axis(facet);
-    let [a, b, c] = soup.geometry.base(facet).map(|p| projected(&soup.geometry, 2 * axis as u8, p));
-    let length = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).abs() + (p[1] - q[1]).abs();
+    let [a, b, c] = soup.geometry.base(facet).map(|p| soup.geometry.position(p));
+    let length = |p: [f64; 3], q: [f64; 3]| (0..3).map(|k| (p[k] - q[k]).abs()).sum::<f64>();
     let longest = length(a, b).max(length(b, c)).max(length(c, a));
-    // The component of the normal is twice the projected area: all heights of the projection are above the margin.
-    let is_wide = soup.geometry.normal(facet)[axis].abs() > longest * margin;
-    if is_wide { 2 * axis as u8 + u8::from(!up) } else { NOWHERE }
+    let normal = soup.geometry.normal(facet);
+    let size = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
+    // A component of the normal is twice the projected area: all heights of the projection are above the margin.
+    let limit = (share * size).max(longest * margin);
+    (0..3).fold(0, |looks, k| {
+        looks | u8::from(normal[k] > limit) << (2 * k) | u8::from(normal[k] < -limit) << (2 * k + 1)
+    })
 }
 
 /// A point as seen along an axis: what looks there turns counter-clockwise.
@@ -133,61 +218,118 @@ fn projected(geometry: &Geometry, look: u8, p: u32) -> [f64; 2] {
     if look.is_multiple_of(2) { [u, v] } else { [v, u] }
 }
 
-/// Sets of facets that look the same way and are joined by edges, and where each looks.
-fn candidates(soup: &Soup, looks: &[u8]) -> (Vec<u32>, Vec<u8>) {
-    let look_alike = |&(f, g): &(u32, u32)| {
-        f < MANY && g < MANY && looks[f as usize] == looks[g as usize] && looks[f as usize] != NOWHERE
-    };
-    let users = &soup.facets_of_edge;
-    let joined = |edges: Range<usize>| users[edges].iter().map(|&[f, g]| (f, g)).filter(look_alike);
-    let (mut of_facet, n) = UnionFind::of_pairs(looks.len(), users.len(), joined).labels();
-    // How many there are in each set, and where its first one looks.
-    let mut sets = vec![(0, NOWHERE); n as usize];
-    let mut begin = 0;
-    for alike in of_facet.chunk_by(|a, b| a == b) {
-        let (size, look) = &mut sets[alike[0] as usize];
-        if *size == 0 {
-            *look = looks[begin];
-        }
-        *size += alike.len();
-        begin += alike.len();
-    }
-    let mut axes = Vec::new();
-    let number = sets.into_iter().map(|(size, look)| {
-        if size < SMALL {
-            return NO_GROUP;
-        }
-        axes.push(look);
-        axes.len() as u32 - 1
-    });
-    let number: Vec<u32> = number.collect();
-    parallel::each_chunk(&mut of_facet, |_, sets| {
-        sets.iter_mut().for_each(|set| *set = number[*set as usize]);
-    });
-    (of_facet, axes)
+/// What may be a chart: where its facets look, and how many they are.
+struct Chart {
+    look: u8,
+    size: usize,
 }
 
-/// The directed edges of each set's boundary.
-fn boundaries(soup: &Soup, of_facet: &[u32], n: usize) -> Vec<Vec<[u32; 2]>> {
-    let chart = |f: u32| if f < MANY { of_facet[f as usize] } else { NO_GROUP };
-    let (n_chunks, range) = parallel::chunks(soup.edges.len(), FACETS_A_CHUNK);
-    let parts = parallel::map(n_chunks, |chunk| {
-        let mut found = Vec::new();
-        for edge in range(chunk) {
-            let [along, against] = soup.facets_of_edge[edge].map(chart);
-            if along != against {
-                let [p, q] = soup.edges[edge];
-                let sides = [(along, [p, q]), (against, [q, p])];
-                found.extend(sides.into_iter().filter(|side| side.0 != NO_GROUP));
+/// Sets of facets that look the same ways and are joined by edges.
+struct Regions {
+    of_facet: Vec<u32>,
+    /// Where the facets of each look.
+    looks: Vec<u8>,
+    /// The number of facets of each.
+    sizes: Vec<usize>,
+    /// The edges on both sides of which there is not the same one.
+    borders: Vec<u32>,
+}
+
+impl Regions {
+    fn new(soup: &Soup, looks: &[u8]) -> Self {
+        let users = &soup.facets_of_edge;
+        let look_alike = |&(f, g): &(u32, u32)| {
+            f < MANY && g < MANY && looks[f as usize] == looks[g as usize] && looks[f as usize] != 0
+        };
+        let joined = |edges: Range<usize>| users[edges].iter().map(|&[f, g]| (f, g)).filter(look_alike);
+        let (of_facet, n) = UnionFind::of_pairs(looks.len(), users.len(), joined).labels();
+        let (mut sizes, mut looks_of) = (vec![0; n as usize], vec![0; n as usize]);
+        let mut begin = 0;
+        for alike in of_facet.chunk_by(|a, b| a == b) {
+            sizes[alike[0] as usize] += alike.len();
+            looks_of[alike[0] as usize] = looks[begin];
+            begin += alike.len();
+        }
+        let at = |f: u32| if f < MANY { of_facet[f as usize] } else { f };
+        let borders = parallel::select(users.len(), |edge| {
+            let [along, against] = users[edge as usize].map(at);
+            along != against
+        });
+        Self { of_facet, looks: looks_of, sizes, borders }
+    }
+
+    /// The regions on both sides of an edge.
+    fn beside(&self, soup: &Soup, edge: u32) -> [Option<usize>; 2] {
+        soup.facets_of_edge[edge as usize].map(|f| (f < MANY).then(|| self.of_facet[f as usize] as usize))
+    }
+
+    /// For each region what may be its chart along each axis: facets that look the same way and are joined by edges. Also
+    /// all of these.
+    fn candidates(&self, soup: &Soup) -> (Vec<[u32; 3]>, Vec<Chart>) {
+        let n = self.looks.len();
+        let mut sets = UnionFind::new(3 * n);
+        for &edge in &self.borders {
+            let [Some(a), Some(b)] = self.beside(soup, edge) else { continue };
+            let alike = self.looks[a] & self.looks[b];
+            for k in (0..3).filter(|k| alike >> (2 * k) & 3 != 0) {
+                sets.union((3 * a + k) as u32, (3 * b + k) as u32);
             }
         }
-        found
-    });
-    let mut boundaries = vec![Vec::new(); n];
-    for (chart, edge) in parts.into_iter().flatten() {
-        boundaries[chart as usize].push(edge);
+        let (set_of, n_sets) = sets.labels();
+        let mut sizes = vec![0; n_sets as usize];
+        for (i, &set) in set_of.iter().enumerate() {
+            sizes[set as usize] += self.sizes[i / 3];
+        }
+        let mut number = vec![NO_GROUP; n_sets as usize];
+        let mut charts = Vec::new();
+        let chart = |(i, &set): (usize, &u32)| {
+            let look = self.looks[i / 3] >> (2 * (i % 3)) & 3;
+            if look == 0 || sizes[set as usize] < SMALL {
+                return NO_GROUP;
+            }
+            let number = &mut number[set as usize];
+            if *number == NO_GROUP {
+                *number = charts.len() as u32;
+                charts.push(Chart { look: 2 * (i % 3) as u8 + (look >> 1), size: sizes[set as usize] });
+            }
+            *number
+        };
+        let of_region: Vec<u32> = set_of.iter().enumerate().map(chart).collect();
+        (of_region.as_chunks().0.to_vec(), charts)
     }
-    boundaries
+
+    /// The directed edges of each chart's boundary.
+    fn boundaries(&self, soup: &Soup, charts: &[[u32; 3]], n: usize) -> Vec<Vec<[u32; 2]>> {
+        let mut boundaries = vec![Vec::new(); n];
+        for &edge in &self.borders {
+            let [along, against] =
+                self.beside(soup, edge).map(|region| region.map_or([NO_GROUP; 3], |region| charts[region]));
+            let [p, q] = soup.edges[edge as usize];
+            for k in (0..3).filter(|&k| along[k] != against[k]) {
+                for (chart, edge) in [(along[k], [p, q]), (against[k], [q, p])] {
+                    if chart != NO_GROUP {
+                        boundaries[chart as usize].push(edge);
+                    }
+                }
+            }
+        }
+        boundaries
+    }
+
+    /// The points inside the mesh whose facets are in charts, but not all in one, ascending.
+    fn between(&self, soup: &Soup, of_region: &[Shared]) -> Vec<u32> {
+        let mut around = vec![Shared::default(); soup.geometry.n_points()];
+        for &edge in &self.borders {
+            if let [Some(a), Some(b)] = self.beside(soup, edge) {
+                let shared = of_region[a].with(of_region[b]);
+                for p in soup.edges[edge as usize] {
+                    let around = &mut around[p as usize];
+                    *around = around.with(shared);
+                }
+            }
+        }
+        parallel::select(around.len(), |p| around[p as usize].is_nothing())
+    }
 }
 
 /// The boundary of facets that look the same way.
@@ -223,24 +365,30 @@ impl Outline<'_> {
     }
 
     /// Whether the boundary, projected, does not meet itself and winds about every point once or not at all.
-    fn is_once_around(&self, course: &Course) -> bool {
-        self.is_simple(course) && self.has_one_outer_loop()
+    fn is_once_around(&self, gives_up: &dyn Fn() -> bool) -> bool {
+        self.is_simple(gives_up) && self.has_one_outer_loop()
     }
 
     /// Whether edges without a common end are farther apart than the margin, and others do not fold back.
-    fn is_simple(&self, course: &Course) -> bool {
-        let boxes: Vec<Aabb<2>> = self
+    fn is_simple(&self, gives_up: &dyn Fn() -> bool) -> bool {
+        let mut boxes: Vec<(Aabb<2>, u32)> = self
             .edges
             .iter()
-            .map(|ends| {
-                let tight = Aabb::around(ends.map(|p| self.at(p)));
-                Aabb { lo: tight.lo.map(|x| x - self.margin), hi: tight.hi.map(|x| x + self.margin) }
-            })
+            .zip(0..)
+            .map(|(ends, edge)| (Aabb::around(ends.map(|p| self.at(p))).larger(self.margin), edge))
             .collect();
-        let tree = BoxTree::new(&boxes);
         // The first that fails ends the search: crossing boundaries may have many pairs.
+        if boxes.len() <= SHORT {
+            boxes.sort_unstable_by(|a, b| a.0.lo[0].total_cmp(&b.0.lo[0]));
+            return boxes.iter().enumerate().all(|(i, (a, edge))| {
+                let mut beside = boxes[i + 1..].iter().take_while(|(b, _)| b.lo[0] <= a.hi[0]);
+                beside.all(|(b, other)| !a.meets(b) || self.are_apart(*edge, *other))
+            });
+        }
+        let boxes: Vec<Aabb<2>> = boxes.into_iter().map(|(b, _)| b).collect();
+        let tree = BoxTree::new(&boxes);
         (0..tree.n_blocks()).all(|block| {
-            let mut are_apart = !course.is_cancelled();
+            let mut are_apart = !gives_up();
             tree.pairs_of_block(block, |i, j| are_apart = are_apart && self.are_apart(i, j));
             are_apart
         })
@@ -331,7 +479,7 @@ mod tests {
     use super::*;
     use crate::progress::Control;
     use crate::soup::Placed;
-    use lar_core::{Points, Surface};
+    use lar_core::{Points, Surface, icosphere};
 
     /// A sheet of n × m squares, each of two triangles, without some; `at` places its points.
     fn sheet(
@@ -392,6 +540,59 @@ mod tests {
         // Two squares without a common edge are missing, or two that are at the border.
         check(sheet([9, 7], |x, y| (x, y) != (3, 3) && (x, y) != (4, 4), |x, y| [x, y, 0.0]), 122);
         check(sheet([9, 7], |x, y| (x, y) != (0, 3) && (x, y) != (1, 4), |x, y| [x, y, 0.0]), 122);
+    }
+
+    /// A ball whose points lie nearer to its middle or farther away.
+    fn ball(subdivisions: u32, radius: impl Fn(usize) -> f64) -> Soup {
+        let mut mesh = icosphere(subdivisions);
+        let points: Vec<[f64; 3]> =
+            (0..mesh.points.len()).map(|i| mesh.points.xyz(i).map(|x| x * radius(i))).collect();
+        mesh.points = Points::from_xyz(&points);
+        let surfaces = [Surface::from_triangles("ball", &mesh)];
+        Soup::new(&surfaces, Placed::snapped(&surfaces, |_, _| 0.0).expect("the points are finite"))
+    }
+
+    #[test]
+    fn charts_of_a_ball_overlap() {
+        let soup = ball(4, |_| 1.0);
+        let charts = Charts::new(&soup, 1.5, &Course::new(Control::default(), &[])).expect("nobody cancels");
+        assert!(charts.without.is_empty() && charts.between.is_empty());
+        assert!(soup.facets_of_edge.iter().all(|&[f, g]| charts.are_one(f, g)));
+        let unit = |f: u32| {
+            let n = soup.geometry.normal(f);
+            let length = n.iter().map(|x| x * x).sum::<f64>().sqrt();
+            n.map(|x| x / length)
+        };
+        let is_opposite = |&f: &u32| (0..3).map(|k| unit(0)[k] * unit(f)[k]).sum::<f64>() < -0.98;
+        let opposite: Vec<u32> = (0..soup.n_facets() as u32).filter(is_opposite).collect();
+        assert!(opposite.len() > 20 && !opposite.iter().any(|&f| charts.are_one(0, f)));
+    }
+
+    #[test]
+    fn rough_meshes_have_narrow_charts() {
+        let course = Course::new(Control::default(), &[]);
+        for (height, are_narrow, n_without) in [(0.02, true, 0), (0.044, true, 0), (0.058, false, 992)] {
+            let soup = ball(4, |i| 1.0 + height * (i * i % 7) as f64 / 7.0);
+            let found = |share| {
+                Charts::of_looks(&soup, share, 7.0, soup.n_facets() / LARGE, &course).expect("nobody cancels")
+            };
+            assert_eq!(found(LOOKS[0]).is_some(), height < 0.03);
+            assert_eq!(found(LOOKS[1]).is_some(), are_narrow);
+            let charts = Charts::new(&soup, 1.5, &course).expect("nobody cancels");
+            assert_eq!(charts.without.len(), n_without, "{height}");
+        }
+    }
+
+    #[test]
+    fn what_is_shared() {
+        let one = Shared::new([0, 5, NO_GROUP]);
+        assert_eq!(Shared::default().with(one), one);
+        assert_eq!(one.with(one), one);
+        assert_eq!(one.with(Shared::new([1, 5, 7])), Shared::new([NO_GROUP, 5, NO_GROUP]));
+        assert!(one.with(Shared::new([1, 4, NO_GROUP])).is_nothing());
+        assert!(Shared::new([u32::MAX - 1, 1 << BITS, (1 << BITS) - 2]).is_nothing());
+        assert_eq!(one.any(), 0);
+        assert_eq!(Shared::NOTHING.any(), NO_GROUP);
     }
 
     #[test]

@@ -1,8 +1,8 @@
-//! Stage 1g: where facets of different charts come near each other.
+//! Stage 1g: where facets come near each other that are in no common chart.
 //!
 //! Space is divided into voxels larger than most facets: their boxes reach from one voxel no farther than into its upper
-//! neighbours. Each voxel is marked with the chart of the facets that begin there, or as *crowded* when these are of several
-//! charts or of none. Spread to where such facets reach, and back from there to where facets begin that reach into what is
+//! neighbours. Each voxel is marked with the charts that all facets that begin there share, or as *crowded* when there is
+//! none. Spread to where such facets reach, and back from there to where facets begin that reach into what is
 //! crowded, the marks tell which facets meet nothing but their neighbours in their chart: the broad phase need not look at
 //! them. Of two meshes that cross along a curve that is nearly everything.
 //!
@@ -13,8 +13,8 @@
 //!    └──┴──┴──┴──┘        └──┴──┴──┴──┘            └──┴──┴──┴──┘
 //! ```
 
-use crate::boxes::{Aabb, NO_GROUP};
-use crate::charts::Charts;
+use crate::boxes::Aabb;
+use crate::charts::{Charts, Shared};
 use crate::parallel;
 use crate::soup::Soup;
 use std::ops::Range;
@@ -28,14 +28,10 @@ const VOXELS_A_FACET: f64 = 3.0;
 const MOST_VOXELS: f64 = 255.0;
 /// Facets that are too large for one voxel may begin in so many for each facet that there is, so that marking them is O(n).
 const MOST_VOXELS_A_FACET: usize = 16;
-/// Nothing begins in the voxel.
-const EMPTY: u16 = 0;
-/// Facets of several charts do, or one of no chart.
-const CROWDED: u16 = u16::MAX;
 /// A facet that is too large for one voxel.
 const LARGE: u32 = u32::MAX;
 
-/// The facets whose boxes, larger by `reach` on all sides, may meet that of one of another chart, or of none, ascending;
+/// The facets whose boxes, larger by `reach` on all sides, may meet that of one that shares no chart with it, ascending;
 /// `None` when they are not worth to be told from the others. O(n).
 pub(crate) fn facets(soup: &Soup, charts: &Charts, reach: f64, all: &Aabb) -> Option<Vec<u32>> {
     let n = soup.n_facets();
@@ -128,31 +124,27 @@ impl Voxels {
 
     /// The voxels with the marks of the facets that begin there, which is everywhere for those that are too large; nothing
     /// when there are too many of these. Every thread looks at all facets for its part of the voxels.
-    fn marked(&self, soup: &Soup, charts: &Charts, firsts: &[u32]) -> Option<Vec<u16>> {
-        let own = |facet: usize| match charts.of(facet as u32) {
-            NO_GROUP => CROWDED,
-            chart => u16::try_from(chart + 1).unwrap_or(CROWDED),
-        };
+    fn marked(&self, soup: &Soup, charts: &Charts, firsts: &[u32]) -> Option<Vec<Shared>> {
         let large = parallel::select(firsts.len(), |f| firsts[f as usize] == LARGE);
         let blocks: Vec<Block> = large.iter().map(|&facet| self.block(soup, facet)).collect();
         blocks.iter().try_fold(MOST_VOXELS_A_FACET * firsts.len(), |left, &block| {
             left.checked_sub(width(block).iter().map(|width| width + 1).product())
         })?;
         let n = self.size.iter().product();
-        let mut marks = vec![EMPTY; n];
+        let mut marks = vec![Shared::default(); n];
         let part_of = |part| parallel::part_of(n, part);
         let parts = parallel::cut(&mut marks, (0..parallel::n_threads()).map(|part| part_of(part).len()));
         parallel::map_each(parts, |part, marks| {
             let Range { start, end } = part_of(part);
             for (facet, &first) in firsts.iter().enumerate() {
                 if let Some(mark) = (first as usize).checked_sub(start).and_then(|i| marks.get_mut(i)) {
-                    add(mark, own(facet));
+                    *mark = mark.with(charts.all(facet as u32));
                 }
             }
             for (&facet, &block) in large.iter().zip(&blocks) {
                 for row in self.rows(block) {
                     let row = row.start.clamp(start, end) - start..row.end.clamp(start, end) - start;
-                    marks[row].iter_mut().for_each(|mark| add(mark, own(facet as usize)));
+                    marks[row].iter_mut().for_each(|mark| *mark = mark.with(charts.all(facet)));
                 }
             }
         });
@@ -169,15 +161,15 @@ impl Voxels {
     }
 
     /// Whether a facet that begins in a voxel may reach into one that others reach into. O(n).
-    fn crowded(&self, mut marks: Vec<u16>) -> Vec<bool> {
+    fn crowded(&self, mut marks: Vec<Shared>) -> Vec<bool> {
         let (row, layer) = (self.size[0], self.size[0] * self.size[1]);
         // From the end, so that what is read has not changed yet.
         parallel::each(marks.chunks_mut(layer).collect(), |layer| {
             for step in [1, row] {
-                (step..layer.len()).rev().for_each(|i| layer[i] = both(layer[i], layer[i - step]));
+                (step..layer.len()).rev().for_each(|i| layer[i] = layer[i].with(layer[i - step]));
             }
         });
-        let lower: Vec<&[u16]> = marks.chunks(layer).collect();
+        let lower: Vec<&[Shared]> = marks.chunks(layer).collect();
         let mut is_crowded = vec![false; marks.len()];
         parallel::each(is_crowded.chunks_mut(layer).enumerate().collect(), |(z, layer)| {
             // The upper of two layers, with what begins in the lower and reaches into it.
@@ -185,7 +177,7 @@ impl Voxels {
                 let Some(upper) = lower.get(z) else { return };
                 let below = if z == 0 { upper } else { lower[z - 1] };
                 for ((is_crowded, &a), &b) in layer.iter_mut().zip(*upper).zip(below) {
-                    *is_crowded |= both(a, b) == CROWDED;
+                    *is_crowded |= a.with(b).is_nothing();
                 }
             };
             add(layer, z);
@@ -196,16 +188,6 @@ impl Voxels {
         });
         is_crowded
     }
-}
-
-/// The mark of a voxel with two.
-fn both(a: u16, b: u16) -> u16 {
-    if a == b || a == EMPTY || b == EMPTY { a | b } else { CROWDED }
-}
-
-/// Adds a facet's mark to that of a voxel. In whatever order they come, the same is there in the end.
-fn add(mark: &mut u16, own: u16) {
-    *mark = both(*mark, own);
 }
 
 #[cfg(test)]

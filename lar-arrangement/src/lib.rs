@@ -3,6 +3,7 @@
 mod apart;
 mod arrangement;
 mod assemble;
+mod beams;
 mod boolean;
 mod boxes;
 mod canonical;

@@ -1,19 +1,19 @@
 //! Stage 1h: which facets may have something in common.
 
 use crate::apart;
+use crate::beams::{self, TARGETS_A_PASS};
 use crate::boxes::{Aabb, BoxTree, Near};
 use crate::canonical::Input;
 use crate::charts::Charts;
 use crate::crowds;
 use crate::curve;
-use crate::parallel;
 use crate::progress::{Cancelled, Course};
 use crate::soup::Soup;
 use crate::stars::Stars;
 use std::sync::OnceLock;
 
-/// For fewer queries every facet is looked at: a tree takes as long as some dozens of such passes.
-const QUERIES_WORTH_A_TREE: usize = 16;
+/// For fewer targets every facet is looked at for each `TARGETS_A_PASS` of them.
+const TARGETS_WORTH_A_TREE: usize = 8 * TARGETS_A_PASS;
 
 /// Pairs of facets, and what they were found with.
 pub(crate) struct Meeting {
@@ -84,39 +84,28 @@ impl<'a> Boxes<'a> {
         })
     }
 
-    /// Makes ready for so many queries.
-    pub(crate) fn prepare(&self, n_queries: usize) {
-        if n_queries >= QUERIES_WORTH_A_TREE {
+    /// Makes ready for so many targets.
+    pub(crate) fn prepare(&self, n_targets: usize) {
+        if n_targets >= TARGETS_WORTH_A_TREE {
             self.tree();
         }
     }
 
-    /// Calls `visit` with each facet whose box meets another one, up to rounding.
-    pub(crate) fn query(&self, target: &Aabb, visit: impl FnMut(u32)) {
-        match self.tree.get() {
-            Some(tree) => tree.query(target, visit),
-            None => passing(self.soup, target).into_iter().for_each(visit),
-        }
-    }
-}
-
-/// The facets whose boxes meet another one, without a tree. O(n).
-fn passing(soup: &Soup, target: &Aabb) -> Vec<u32> {
-    // A box beyond one of the target's sides has all its corners there.
-    let sides = parallel::map_light(soup.geometry.n_points(), |p| {
-        let at = soup.geometry.position(p as u32);
-        let beyond = |k: usize| {
-            u8::from(at[k] < target.lo[k]) << (2 * k) | u8::from(at[k] > target.hi[k]) << (2 * k + 1)
+    /// The facets whose boxes meet each of some others, up to rounding.
+    pub(crate) fn meeting(&self, targets: &[Aabb]) -> Vec<Vec<u32>> {
+        let Some(tree) = self.tree.get() else {
+            return targets
+                .chunks(TARGETS_A_PASS)
+                .flat_map(|targets| beams::facets_in(self.soup, targets))
+                .collect();
         };
-        beyond(0) | beyond(1) | beyond(2)
-    });
-    let of = |p: u32| sides[p as usize];
-    let of_others =
-        |f: u32| soup.facet_edges[f as usize].iter().fold(!0, |all, &code| all & of(soup.directed(code)[0]));
-    parallel::select(soup.n_facets(), |f| {
-        let [a, b, c] = soup.geometry.base(f).map(of);
-        a & b & c == 0 || !soup.are_triangles() && of_others(f) == 0
-    })
+        let in_tree = |target: &Aabb| {
+            let mut found = Vec::new();
+            tree.query(target, |facet| found.push(facet));
+            found
+        };
+        targets.iter().map(in_tree).collect()
+    }
 }
 
 /// The box around all points.
@@ -140,7 +129,7 @@ mod tests {
     use crate::crossing::{self, Contacts, Scratch};
     use crate::progress::Control;
     use crate::soup::Placed;
-    use lar_core::{Points, Surface, cuboid_grid, icosphere};
+    use lar_core::{Points, Surface, icosphere};
 
     /// Pairs that the plane of a large triangle keeps apart have no contact, and are most of those in its box.
     #[test]
@@ -173,25 +162,6 @@ mod tests {
                 n_left_out += u32::from(!is_pair);
             }
             assert!(n_touching > 100 && n_left_out > 1000, "{n_touching} touch, {n_left_out} are left out");
-        }
-    }
-
-    #[test]
-    fn facets_are_found_without_a_tree() {
-        let ball = Surface::from_triangles("ball", &icosphere(2));
-        let block = cuboid_grid(&[3, 2, 1]).to_surface("block").expect("a block");
-        for surfaces in [vec![ball.clone()], vec![ball, block]] {
-            let placed = Placed::snapped(&surfaces, |_, _| 0.0).expect("the points are finite");
-            let soup = Soup::new(&surfaces, placed);
-            let all = hull(&soup);
-            for i in 0..100u32 {
-                let at = |k: u32| f64::from(i * (7 + 4 * k) % 100) / 100.0;
-                let lo = [0, 1, 2].map(|k| all.lo[k] + at(k as u32) * (all.hi[k] - all.lo[k]));
-                let target = Aabb { lo, hi: lo.map(|x| x + at(3) * (all.hi[0] - all.lo[0])) };
-                let n = soup.n_facets() as u32;
-                let expected: Vec<u32> = (0..n).filter(|&f| box_of(&soup, f).meets(&target)).collect();
-                assert_eq!(passing(&soup, &target), expected);
-            }
         }
     }
 }

@@ -6,6 +6,8 @@
 //! leaves and the one that it meets next bound the same cell; beyond the last hit it is in the exterior. As every
 //! ray ends there, it does not matter that two components may hit each other.
 
+use crate::beams::TARGETS_A_PASS;
+use crate::kernel::Midpoint;
 use crate::parallel;
 use crate::progress::{Cancelled, Course};
 use crate::rays::Rays;
@@ -28,14 +30,18 @@ impl Nesting<'_> {
         let mut sets = UnionFind::new(n + 1);
         let edges = self.first_edges();
         self.rays.boxes.prepare(edges.len());
-        for edge in edges {
+        for edges in edges.chunks(TARGETS_A_PASS) {
             course.go_on()?;
-            let mut here = self.shell_of_side[self.rays.sector(edge) as usize];
-            for face in self.hits(edge) {
-                sets.union(here, self.shell(face, false));
-                here = self.shell(face, true);
+            let starts: Vec<Midpoint> = edges.iter().map(|&edge| self.rays.start(edge)).collect();
+            let candidates = self.rays.candidates(&starts);
+            for ((&edge, start), facets) in edges.iter().zip(&starts).zip(candidates) {
+                let mut here = self.shell_of_side[self.rays.sector(edge) as usize];
+                for face in self.hits(start, &facets) {
+                    sets.union(here, self.shell(face, false));
+                    here = self.shell(face, true);
+                }
+                sets.union(here, n as u32);
             }
-            sets.union(here, n as u32);
         }
         let (labels, n_cells) = sets.labels();
         let exterior = labels[n];
@@ -66,22 +72,21 @@ impl Nesting<'_> {
         found
     }
 
-    /// The faces that the ray from the middle of an edge meets, in their order.
-    fn hits(&self, edge: u32) -> Vec<u32> {
+    /// The faces in some facets that a ray meets, in their order.
+    fn hits(&self, start: &Midpoint, facets: &[u32]) -> Vec<u32> {
         let Rays { skeleton, geometry, .. } = self.rays;
-        let start = self.rays.start(edge);
-        let mut hits = Vec::new();
-        self.rays.candidates(&start, |facet| hits.extend(skeleton.faces_of_facets.of(facet)));
+        let mut hits: Vec<u32> =
+            facets.iter().flat_map(|&facet| skeleton.faces_of_facets.of(facet)).collect();
         // Facets that overlap in one plane share their faces.
         hits.sort_unstable();
         hits.dedup();
         hits.retain(|&face| {
             let ends = |h: u32| skeleton.ends(h).map(|v| skeleton.vertices[v as usize]);
-            self.rays.is_hit(skeleton.facet(face), skeleton.half_edges(face).map(ends), &start)
+            self.rays.is_hit(skeleton.facet(face), skeleton.half_edges(face).map(ends), start)
         });
         hits.sort_by(|&f, &g| {
             let facets = [f, g].map(|face| skeleton.facet(face));
-            geometry.cmp_hits(&start, facets).then_with(|| f.cmp(&g))
+            geometry.cmp_hits(start, facets).then_with(|| f.cmp(&g))
         });
         hits
     }

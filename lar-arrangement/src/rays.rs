@@ -27,14 +27,14 @@ impl Rays<'_> {
         self.geometry.midpoint(a, b)
     }
 
-    /// Calls `visit` with every facet that a ray may hit, and others.
-    pub(crate) fn candidates(&self, start: &Midpoint, visit: impl FnMut(u32)) {
+    /// For each ray the facets that it may hit, and others.
+    pub(crate) fn candidates(&self, starts: &[Midpoint]) -> Vec<Vec<u32>> {
         // The rounded midpoint may be off by a fraction of a grid step.
-        let beam = Aabb {
+        let beam = |start: &Midpoint| Aabb {
             lo: [f64::NEG_INFINITY, start.at[1] - 1.0, start.at[2] - 1.0],
             hi: start.at.map(|x| x + 1.0),
         };
-        self.boxes.query(&beam, visit);
+        self.boxes.meeting(&starts.iter().map(beam).collect::<Vec<_>>())
     }
 
     /// The side that bounds the sector around an edge into which its middle is moved: direction (ε², 1, ε).

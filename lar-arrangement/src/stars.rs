@@ -44,10 +44,9 @@ impl Stars {
         if !soup.geometry.is_on_grid() {
             return Self { is_clean };
         }
-        for p in charts.boundary_points().chain(charts.without.iter().flat_map(|&f| soup.geometry.base(f))) {
-            is_clean[p as usize] = true;
-        }
-        if !is_clean.contains(&true) {
+        let of_others = charts.without.iter().flat_map(|&f| soup.geometry.base(f));
+        charts.between.iter().copied().chain(of_others).for_each(|p| is_clean[p as usize] = true);
+        if charts.between.is_empty() && charts.without.is_empty() {
             return Self { is_clean };
         }
         let is_odd = |edge: u32| soup.facets_of_edge[edge as usize].iter().any(|&facet| facet >= MANY);

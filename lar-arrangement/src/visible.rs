@@ -132,13 +132,13 @@ impl Search<'_> {
         let edge = rays.skeleton.half_edges(face).next().expect("faces have edges") / 2;
         let start = rays.start(edge);
         self.here.leave();
-        rays.candidates(&start, |facet| {
+        for facet in rays.candidates(std::slice::from_ref(&start)).concat() {
             let ends = |&code: &u32| soup.directed(code).map(|p| soup.geometry.point_vertex(p));
             if rays.is_hit(facet, soup.facet_edges[facet as usize].iter().map(ends), &start) {
                 let sign = if rays.leaves_in_front(facet) { 1 } else { -1 };
                 soup.parents(facet).iter().for_each(|p| self.here.change(p.solid, sign * soup.jump(p)));
             }
-        });
+        }
         let sector = rays.sector(edge);
         let at = rays.rings[edge as usize].iter().position(|&entry| entry == sector);
         self.turn(edge, at.expect("the sector is one of the edge"));
