@@ -17,7 +17,6 @@ use crate::boxes::Aabb;
 use crate::charts::{Charts, Shared};
 use crate::parallel;
 use crate::soup::Soup;
-use std::ops::Range;
 use wide::u8x16;
 
 /// Fewer facets are not worth it.
@@ -40,14 +39,22 @@ pub(crate) fn facets(soup: &Soup, charts: &Charts, reach: f64, all: &Aabb) -> Op
     }
     let voxels = Voxels::new(soup, all, reach);
     let firsts = parallel::map_light(n, |f| voxels.first(voxels.block(soup, f as u32)));
-    let marks = voxels.marked(soup, charts, &firsts)?;
-    let is_crowded = voxels.crowded(marks);
+    let mut marks = voxels.marked(soup, charts, &firsts)?;
+    let is_crowded = voxels.crowded(&mut marks);
     let crowded = parallel::select(n, |f| match firsts[f as usize] {
         // There are few.
         LARGE => true,
         first => is_crowded[first as usize],
     });
-    (4 * crowded.len() < 3 * n).then_some(crowded)
+    let blocks = parallel::map_light(crowded.len(), |i| voxels.block(soup, crowded[i]));
+    voxels.mark_anew(&mut marks, &blocks, |i| charts.all(crowded[i]));
+    let is_met = |i: u32| {
+        let mut is_met = false;
+        voxels.each(blocks[i as usize], |voxel| is_met |= marks[voxel].is_nothing());
+        is_met
+    };
+    let met = parallel::select(crowded.len(), is_met);
+    (4 * met.len() < 3 * n).then(|| met.into_iter().map(|i| crowded[i as usize]).collect())
 }
 
 /// What something reaches into: along each axis k the first voxel, byte k, and the last, 255 less byte 4 + k.
@@ -135,33 +142,80 @@ impl Voxels {
         let part_of = |part| parallel::part_of(n, part);
         let parts = parallel::cut(&mut marks, (0..parallel::n_threads()).map(|part| part_of(part).len()));
         parallel::map_each(parts, |part, marks| {
-            let Range { start, end } = part_of(part);
+            let start = part_of(part).start;
             for (facet, &first) in firsts.iter().enumerate() {
                 if let Some(mark) = (first as usize).checked_sub(start).and_then(|i| marks.get_mut(i)) {
                     *mark = mark.with(charts.all(facet as u32));
                 }
             }
             for (&facet, &block) in large.iter().zip(&blocks) {
-                for row in self.rows(block) {
-                    let row = row.start.clamp(start, end) - start..row.end.clamp(start, end) - start;
-                    marks[row].iter_mut().for_each(|mark| *mark = mark.with(charts.all(facet)));
-                }
+                let own = charts.all(facet);
+                self.each(block, |voxel| {
+                    if let Some(mark) = marks.get_mut(voxel.wrapping_sub(start)) {
+                        *mark = mark.with(own);
+                    }
+                });
             }
         });
         Some(marks)
     }
 
-    /// The rows of voxels of a block.
-    fn rows(&self, block: Block) -> impl Iterator<Item = Range<usize>> + '_ {
-        let ([x, y, z], width) = (first(block), width(block));
-        (z..=z + width[2]).flat_map(move |z| (y..=y + width[1]).map(move |y| [x, y, z])).map(move |at| {
-            let begin = self.index(at);
-            begin..begin + width[0] + 1
-        })
+    /// Marks the blocks of some facets anew, and nothing else in these. Every thread looks at all of them for its part of the
+    /// voxels.
+    fn mark_anew(
+        &self,
+        marks: &mut [Shared],
+        blocks: &[Block],
+        charts: impl Fn(usize) -> Shared + Sync + Send,
+    ) {
+        let n = marks.len();
+        let part_of = |part| parallel::part_of(n, part);
+        let parts = parallel::cut(marks, (0..parallel::n_threads()).map(|part| part_of(part).len()));
+        parallel::map_each(parts, |part, marks| {
+            let start = part_of(part).start;
+            for &block in blocks {
+                self.each(block, |voxel| {
+                    if let Some(mark) = marks.get_mut(voxel.wrapping_sub(start)) {
+                        *mark = Shared::default();
+                    }
+                });
+            }
+            for (i, &block) in blocks.iter().enumerate() {
+                let own = charts(i);
+                self.each(block, |voxel| {
+                    if let Some(mark) = marks.get_mut(voxel.wrapping_sub(start)) {
+                        *mark = mark.with(own);
+                    }
+                });
+            }
+        });
+    }
+
+    /// Calls `visit` with the voxels of a block, with some more than once.
+    fn each(&self, block: Block, mut visit: impl FnMut(usize)) {
+        let (begin, width) = (first(block), width(block));
+        if width[0] | width[1] | width[2] <= 1 {
+            // As most are. Without branches, which would be predicted badly.
+            let end = [0, 1, 2].map(|k| begin[k] + width[k]);
+            for z in [begin[2], end[2]] {
+                for y in [begin[1], end[1]] {
+                    for x in [begin[0], end[0]] {
+                        visit(self.index([x, y, z]));
+                    }
+                }
+            }
+            return;
+        }
+        for z in begin[2]..begin[2] + width[2] + 1 {
+            for y in begin[1]..begin[1] + width[1] + 1 {
+                let row = self.index([begin[0], y, z]);
+                (row..row + width[0] + 1).for_each(&mut visit);
+            }
+        }
     }
 
     /// Whether a facet that begins in a voxel may reach into one that others reach into. O(n).
-    fn crowded(&self, mut marks: Vec<Shared>) -> Vec<bool> {
+    fn crowded(&self, marks: &mut [Shared]) -> Vec<bool> {
         let (row, layer) = (self.size[0], self.size[0] * self.size[1]);
         // From the end, so that what is read has not changed yet.
         parallel::each(marks.chunks_mut(layer).collect(), |layer| {
