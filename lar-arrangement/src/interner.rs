@@ -51,6 +51,13 @@ impl Interner {
         interner
     }
 
+    /// Makes room for so many vertices more.
+    pub(crate) fn reserve(&mut self, n: usize) {
+        self.vertices.reserve(n);
+        self.next_at.reserve(n);
+        self.first_at.reserve(n);
+    }
+
     /// Adds a vertex that is known to differ from all others.
     pub(crate) fn push(&mut self, vertex: Vertex) -> u32 {
         self.vertices.push(vertex);

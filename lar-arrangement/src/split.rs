@@ -59,6 +59,7 @@ impl Cuts {
     pub(crate) fn new(soup: &Soup, contacts: Contacts, interner: &mut Interner) -> Self {
         let geometry = &soup.geometry;
         let n_points = geometry.n_points() as u32;
+        interner.reserve(contacts.vertices.len());
         let ids: Vec<u32> = contacts.vertices.into_iter().map(|v| interner.intern(v, geometry)).collect();
         let id = |v: u32| if v < n_points { v } else { ids[(v - n_points) as usize] };
         let mut splits: Vec<(u32, u32)> = contacts.splits.into_iter().map(|(e, v)| (e, id(v))).collect();

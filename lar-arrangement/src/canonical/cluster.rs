@@ -13,6 +13,9 @@ use lar_core::Cells;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
 
+/// Components of polygons a chunk of work.
+const COMPONENTS_A_CHUNK: usize = 128;
+
 /// Polygons in one plane.
 #[derive(Debug)]
 pub(super) struct Cluster {
@@ -91,14 +94,19 @@ impl Search<'_> {
         let candidates = (0..n_polygons as u32).filter(is_candidate);
         let mut members: Vec<(u32, u32)> = candidates.map(|p| (labels[p as usize], p)).collect();
         members.sort_unstable();
-        let mut out = Vec::new();
-        for component in members.chunk_by(|a, b| a.0 == b.0) {
-            match self.cluster(component.iter().map(|m| m.1).collect()) {
-                Ok(cluster) => out.extend(cluster),
-                Err(component) => self.split(component, &mut out),
+        let components: Vec<&[(u32, u32)]> = members.chunk_by(|a, b| a.0 == b.0).collect();
+        let (n_chunks, range) = parallel::chunks(components.len(), COMPONENTS_A_CHUNK);
+        let parts = parallel::map(n_chunks, |chunk| {
+            let mut out = Vec::new();
+            for component in &components[range(chunk)] {
+                match self.cluster(component.iter().map(|m| m.1).collect()) {
+                    Ok(cluster) => out.extend(cluster),
+                    Err(component) => self.split(component, &mut out),
+                }
             }
-        }
-        out
+            out
+        });
+        parts.into_iter().flatten().collect()
     }
 
     /// The cluster of some polygons: none when they are one triangle or have no plane; the polygons when they are not
@@ -215,26 +223,31 @@ impl Search<'_> {
         let (n_facets, n_points) = (self.input.soup.n_facets(), self.geometry().n_points());
         let paired = partners(n_facets, self.input.pairs);
         let at_corner = self.facets_at_corners(clusters);
-        // The last cluster that a facet and a point were looked at for.
-        let (mut facet_seen, mut point_seen) = (vec![u32::MAX; n_facets], vec![u32::MAX; n_points]);
-        for (cluster, id) in clusters.iter_mut().zip(0..) {
-            let own = cluster.polygons.iter().flat_map(|&polygon| self.facets(polygon));
-            own.clone().for_each(|f| facet_seen[f as usize] = id);
-            cluster.corners.iter().for_each(|&p| point_seen[p as usize] = id);
-            let others = own.flat_map(|f| &paired[f as usize]);
-            for &facet in others.chain(cluster.corners.iter().flat_map(|&p| &at_corner[p as usize])) {
-                if std::mem::replace(&mut facet_seen[facet as usize], id) == id {
-                    continue;
+        let n = clusters.len();
+        let part_of = |part| parallel::part_of(n, part);
+        let parts = parallel::cut(clusters, (0..parallel::n_threads()).map(|part| part_of(part).len()));
+        parallel::each(parts, |clusters| {
+            // The last cluster that a facet and a point were looked at for.
+            let (mut facet_seen, mut point_seen) = (vec![u32::MAX; n_facets], vec![u32::MAX; n_points]);
+            for (cluster, id) in clusters.iter_mut().zip(0..) {
+                let own = cluster.polygons.iter().flat_map(|&polygon| self.facets(polygon));
+                own.clone().for_each(|f| facet_seen[f as usize] = id);
+                cluster.corners.iter().for_each(|&p| point_seen[p as usize] = id);
+                let others = own.flat_map(|f| &paired[f as usize]);
+                for &facet in others.chain(cluster.corners.iter().flat_map(|&p| &at_corner[p as usize])) {
+                    if std::mem::replace(&mut facet_seen[facet as usize], id) == id {
+                        continue;
+                    }
+                    let new = self
+                        .input
+                        .corners(facet)
+                        .filter(|&p| std::mem::replace(&mut point_seen[p as usize], id) != id);
+                    let near = new.filter(|&p| cluster.fit.is_near(self.geometry(), p, cluster.tolerance));
+                    cluster.touching.extend(near);
                 }
-                let new = self
-                    .input
-                    .corners(facet)
-                    .filter(|&p| std::mem::replace(&mut point_seen[p as usize], id) != id);
-                let near = new.filter(|&p| cluster.fit.is_near(self.geometry(), p, cluster.tolerance));
-                cluster.touching.extend(near);
+                cluster.touching.sort_unstable();
             }
-            cluster.touching.sort_unstable();
-        }
+        });
     }
 
     /// The facets at each point that is a corner of a cluster.
@@ -263,7 +276,7 @@ pub(super) fn planes_of_faces(soup: &Soup, clusters: &[Cluster]) -> Vec<Vec<Opti
 }
 
 /// A list for each of 0..n, of entries (whose list, item) in their order.
-fn lists(n: usize, entries: &[(u32, u32)]) -> Cells {
+pub(super) fn lists(n: usize, entries: &[(u32, u32)]) -> Cells {
     let (offsets, sorted) = sorted_by_place(n, entries, |entry| entry.0 as usize);
     Cells::from_parts(offsets, sorted.into_iter().map(|entry| entry.1).collect())
 }

@@ -1,13 +1,14 @@
 //! Where the corners of clusters go: onto one plane along an axis, onto the line of two, to the point of three.
 
-use super::cluster::Cluster;
+use super::cluster::{Cluster, lists};
 use super::{Report, carried, renumbered};
 use crate::grid_points::PointTable;
 use crate::kernel::{CanonicalPoints, Geometry, Plane, RationalPoint, Sign, dominant_axis};
 use crate::parallel;
 use crate::soup::{Placed, Soup};
 use crate::vector::distance;
-use rustc_hash::FxHashMap;
+use lar_core::Cells;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 
 /// The vertices of a soup with the corners of the clusters on their planes, and the plane of each face.
 pub(super) fn on_planes(
@@ -18,28 +19,27 @@ pub(super) fn on_planes(
 ) -> Placed {
     let planes: Vec<Plane> = clusters.iter().map(|c| c.plane).collect();
     report.planes = planes.len() as u64;
-    let mut of_point = vec![Vec::new(); soup.geometry.n_points()];
-    for (cluster, id) in clusters.iter().zip(0..) {
-        cluster.corners.iter().for_each(|&p| of_point[p as usize].push((id, true)));
-        cluster.touching.iter().for_each(|&p| of_point[p as usize].push((id, false)));
-    }
+    let n_points = soup.geometry.n_points();
+    let of_point = clusters_at_points(clusters, n_points);
     let at = |p: u32| soup.geometry.nearest_grid_point(p);
-    let concerned = parallel::select(of_point.len(), |p| !of_point[p as usize].is_empty());
+    let concerned = parallel::select(n_points, |p| !of_point[p as usize].is_empty());
     let places = parallel::map(concerned.len(), |i| {
-        let mut candidates: Vec<(u32, bool)> = of_point[concerned[i] as usize].clone();
+        let p = concerned[i];
+        let is_own = |c: u32| clusters[c as usize].corners.binary_search(&p).is_ok();
+        let mut candidates: Vec<(u32, bool)> = of_point[p as usize].iter().map(|&c| (c, is_own(c))).collect();
         candidates.sort_by_key(|&(c, is_own)| {
             let cluster = &clusters[c as usize];
             (!cluster.is_settled, !is_own, std::cmp::Reverse(cluster.corners.len()), c)
         });
-        placed(at(concerned[i]), &candidates, clusters)
+        placed(at(p), &candidates, clusters)
     });
     let mut places = concerned.iter().zip(places).peekable();
-    let mut placement = Placement::default();
-    for p in 0..of_point.len() as u32 {
+    let mut placement = Placement::of(n_points);
+    for p in 0..n_points as u32 {
         let moved = places.next_if(|place| *place.0 == p);
-        let (point, on) = moved.map_or_else(|| (RationalPoint::grid(at(p)), Vec::new()), |place| place.1);
-        report.note(distance(at(p).map(|x| x as f64), point.rounded()));
-        placement.push(point, on);
+        let place = moved.map_or_else(|| Place::grid(at(p)), |place| place.1);
+        report.note(distance(at(p).map(|x| x as f64), place.rounded));
+        placement.push(place);
     }
     placement.finished(soup, planes, plane_of_face)
 }
@@ -50,16 +50,17 @@ pub(super) fn registered(clusters: Vec<Cluster>, n_points: usize) -> Vec<Cluster
     if clusters.is_empty() {
         return clusters;
     }
-    let mut of_point = vec![Vec::new(); n_points];
-    for (cluster, id) in clusters.iter().zip(0usize..) {
-        cluster.all_corners().for_each(|p| of_point[p as usize].push(id));
-    }
+    let of_point = clusters_at_points(&clusters, n_points);
+    let mut is_passed = vec![false; n_points];
     let mut is_registered: Vec<bool> =
         clusters.iter().map(|c| c.fit.deviation > 0.0 || c.moves_others).collect();
     let mut stack: Vec<usize> = (0..clusters.len()).filter(|&c| is_registered[c]).collect();
     while let Some(id) = stack.pop() {
         for p in clusters[id].all_corners() {
-            for other in std::mem::take(&mut of_point[p as usize]) {
+            if std::mem::replace(&mut is_passed[p as usize], true) {
+                continue;
+            }
+            for other in of_point[p as usize].iter().map(|&c| c as usize) {
                 if !std::mem::replace(&mut is_registered[other], true) && !clusters[other].is_settled {
                     stack.push(other);
                 }
@@ -69,24 +70,46 @@ pub(super) fn registered(clusters: Vec<Cluster>, n_points: usize) -> Vec<Cluster
     clusters.into_iter().zip(is_registered).filter(|c| c.1).map(|c| c.0).collect()
 }
 
+/// The clusters with each point among their corners or those that touch them.
+fn clusters_at_points(clusters: &[Cluster], n_points: usize) -> Cells {
+    let entries =
+        clusters.iter().zip(0..).flat_map(|(cluster, id)| cluster.all_corners().map(move |p| (p, id)));
+    lists(n_points, &entries.collect::<Vec<_>>())
+}
+
+/// A place of a point.
+struct Place {
+    point: RationalPoint,
+    rounded: [f64; 3],
+    /// The planes it lies on.
+    on: Vec<u32>,
+}
+
+impl Place {
+    fn grid(at: [i64; 3]) -> Self {
+        Self { point: RationalPoint::grid(at), rounded: at.map(|x| x as f64), on: Vec::new() }
+    }
+}
+
 /// Where a point goes, and the planes it then lies on: greedily as many of the candidates as do not take it far.
-fn placed(at: [i64; 3], candidates: &[(u32, bool)], clusters: &[Cluster]) -> (RationalPoint, Vec<u32>) {
-    let home = at.map(|x| x as f64);
-    let (mut point, mut basis) = (RationalPoint::grid(at), Vec::new());
+fn placed(at: [i64; 3], candidates: &[(u32, bool)], clusters: &[Cluster]) -> Place {
+    let mut place = Place::grid(at);
+    let (home, mut basis) = (place.rounded, Vec::new());
     for &(candidate, _) in candidates {
         let cluster = &clusters[candidate as usize];
         basis.push(&cluster.plane);
-        match nearest_on(at, &basis) {
-            Some(moved) if distance(home, moved.rounded()) <= cluster.tolerance => point = moved,
-            _ => drop(basis.pop()),
+        let moved = nearest_on(at, &basis).map(|point| (point, point.rounded()));
+        match moved.filter(|&(_, rounded)| distance(home, rounded) <= cluster.tolerance) {
+            Some((point, rounded)) => (place.point, place.rounded) = (point, rounded),
+            None => drop(basis.pop()),
         }
     }
     let is_on = |candidate: &u32| {
         let plane = &clusters[*candidate as usize].plane;
-        plane.widened::<4>().scaled_side(&point.widened()).sign() == Sign::Zero
+        plane.widened::<4>().scaled_side(&place.point.widened()).sign() == Sign::Zero
     };
-    let on = candidates.iter().map(|c| c.0).filter(is_on).collect();
-    (point, on)
+    place.on = candidates.iter().map(|c| c.0).filter(is_on).collect();
+    place
 }
 
 /// The point on one, two or three planes that has the other coordinates of a grid point; `None` when their normals
@@ -112,40 +135,57 @@ fn nearest_on(at: [i64; 3], planes: &[&Plane]) -> Option<RationalPoint> {
 }
 
 /// The points in their new places, equal ones unified.
-#[derive(Default)]
 struct Placement {
     /// New point of each old one.
     new_id: Vec<u32>,
-    points: Vec<(RationalPoint, Vec<u32>)>,
-    /// New points by their rounded positions.
-    at: FxHashMap<[u64; 3], Vec<u32>>,
+    places: Vec<Place>,
+    /// The last new point with a rounded position, and the one before each; itself when there is none.
+    last_at: FxHashMap<[u64; 3], u32>,
+    before: Vec<u32>,
 }
 
 impl Placement {
-    fn push(&mut self, point: RationalPoint, on: Vec<u32>) {
-        let same_place = self.at.entry(point.rounded().map(|x| (x + 0.0).to_bits())).or_default();
-        let equal = |&id: &u32| self.points[id as usize].0.widened::<5>().equals(&point.widened());
-        let id = same_place.iter().copied().find(equal).unwrap_or_else(|| {
-            self.points.push((point, Vec::new()));
-            same_place.push(self.points.len() as u32 - 1);
-            self.points.len() as u32 - 1
-        });
-        let planes = &mut self.points[id as usize].1;
-        planes.extend(on);
-        planes.sort_unstable();
-        planes.dedup();
+    /// Room for so many points.
+    fn of(n: usize) -> Self {
+        Self {
+            new_id: Vec::with_capacity(n),
+            places: Vec::with_capacity(n),
+            last_at: FxHashMap::with_capacity_and_hasher(n, FxBuildHasher),
+            before: Vec::with_capacity(n),
+        }
+    }
+
+    fn push(&mut self, place: Place) {
+        let new = self.places.len() as u32;
+        let last = self.last_at.entry(place.rounded.map(|x| (x + 0.0).to_bits())).or_insert(new);
+        let mut id = *last;
+        while id != new && !self.places[id as usize].point.widened::<5>().equals(&place.point.widened()) {
+            let before = self.before[id as usize];
+            id = if before == id { new } else { before };
+        }
+        if id == new {
+            self.before.push(std::mem::replace(last, new));
+            self.places.push(place);
+        } else {
+            let planes = &mut self.places[id as usize].on;
+            planes.extend(place.on);
+            planes.sort_unstable();
+            planes.dedup();
+        }
         self.new_id.push(id);
     }
 
     fn finished(self, soup: &Soup, planes: Vec<Plane>, plane_of_face: Vec<Vec<Option<u32>>>) -> Placed {
         let mut canonical = CanonicalPoints { planes, ..CanonicalPoints::default() };
-        let n = self.points.len();
+        let n = self.places.len();
         let (mut points, mut point_ids) = (Vec::with_capacity(n), PointTable::with_capacity(n));
-        for ((point, on), id) in self.points.iter().zip(0..) {
-            let nearest = point.rounded().map(|x| x.round() as i64);
+        for (Place { point, rounded, on }, id) in self.places.iter().zip(0..) {
+            let nearest = rounded.map(|x| x.round() as i64);
             points.push(nearest);
             canonical.planes_of_point.push(on);
-            if RationalPoint::grid(nearest).widened::<5>().equals(&point.widened()) {
+            if nearest.map(|x| x as f64) == *rounded
+                && RationalPoint::grid(nearest).widened::<5>().equals(&point.widened())
+            {
                 point_ids.insert(nearest, id, |id| points[id as usize]);
                 canonical.entry.push(0);
             } else {

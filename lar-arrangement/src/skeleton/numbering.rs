@@ -59,7 +59,7 @@ pub(super) struct Numbering<'a> {
     any_soft: bool,
     /// Edges that stay because of a piece.
     hard: Vec<u32>,
-    /// Input edges that pieces may be, by their ends.
+    /// Input edges that pieces between points of the input may be, and others, by their ends.
     input_edges: FxHashMap<[u32; 2], u32>,
     /// Of all pieces of all parts, the first one with the same ends.
     first_piece: Vec<u32>,
@@ -88,20 +88,16 @@ impl<'a> Numbering<'a> {
         let soup = parts.soup;
         let pieces = || parts.fragments.iter().flat_map(|part| &part.pieces);
         let mut is_border = vec![false; soup.edges.len()];
-        let mut input_edges = FxHashMap::default();
         for &code in parts.groups.members.indices().iter().flat_map(|&f| &soup.facet_edges[f as usize]) {
             is_border[(code / 2) as usize] = true;
-            input_edges.insert(soup.edges[(code / 2) as usize], code / 2);
         }
-        // Other edges that a piece may be are looked for among all: such pieces are rare.
+        // Pieces between points of the input may be edges of it, of members or of others.
         let n_points = soup.geometry.n_points() as u32;
-        let is_other = |ends: &[u32; 2]| ends[1] < n_points && !input_edges.contains_key(ends);
-        let others: Vec<[u32; 2]> = pieces().map(ends_of).filter(is_other).collect();
-        let found = soup.edges_between(others.iter().copied());
-        for ends in others {
-            if let Some(&edge) = found.get(&ends) {
+        let between_points: Vec<[u32; 2]> = pieces().map(ends_of).filter(|ends| ends[1] < n_points).collect();
+        let input_edges = soup.edges_between(between_points.iter().copied());
+        for ends in between_points {
+            if let Some(&edge) = input_edges.get(&ends) {
                 is_border[edge as usize] = true;
-                input_edges.insert(ends, edge);
             }
         }
         let border = parallel::select(is_border.len(), |edge| is_border[edge as usize]);
@@ -223,7 +219,9 @@ impl<'a> Numbering<'a> {
     fn edge_of_piece(&mut self, piece: &Piece) -> u32 {
         let ends = ends_of(piece);
         let is_whole = |&edge: &u32| self.cuts.inner.of(edge).is_empty();
-        if let Some(edge) = self.input_edges.get(&ends).copied().filter(is_whole) {
+        if (ends[1] as usize) < self.soup.geometry.n_points()
+            && let Some(edge) = self.input_edges.get(&ends).copied().filter(is_whole)
+        {
             return self.whole_edge(edge);
         }
         let id = self.add(ends);
