@@ -48,6 +48,19 @@ pub(crate) struct Contacts {
 }
 
 impl Contacts {
+    /// None, with room for those of some chunks.
+    pub(crate) fn with_room_for(parts: &[Self]) -> Self {
+        let sum = |n: fn(&Self) -> usize| parts.iter().map(n).sum();
+        Self {
+            vertices: Vec::with_capacity(sum(|part| part.vertices.len())),
+            splits: Vec::with_capacity(sum(|part| part.splits.len())),
+            segments: Vec::with_capacity(sum(|part| part.segments.len())),
+            touches: Vec::with_capacity(sum(|part| part.touches.len())),
+            coplanar: Vec::with_capacity(sum(|part| part.coplanar.len())),
+            ..Self::default()
+        }
+    }
+
     /// Appends the contacts of another chunk.
     pub(crate) fn append(&mut self, mut other: Contacts, n_points: u32) {
         let base = self.vertices.len() as u32;

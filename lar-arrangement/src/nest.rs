@@ -34,13 +34,18 @@ impl Nesting<'_> {
             course.go_on()?;
             let starts: Vec<Midpoint> = edges.iter().map(|&edge| self.rays.start(edge)).collect();
             let candidates = self.rays.candidates(&starts);
-            for ((&edge, start), facets) in edges.iter().zip(&starts).zip(candidates) {
-                let mut here = self.shell_of_side[self.rays.sector(edge) as usize];
-                for face in self.hits(start, &facets) {
-                    sets.union(here, self.shell(face, false));
-                    here = self.shell(face, true);
-                }
-                sets.union(here, n as u32);
+            // From shell to shell, up to the exterior.
+            let ways = parallel::map(edges.len(), |i| {
+                let hits = self.hits(&starts[i], &candidates[i]);
+                let mut way = vec![self.shell_of_side[self.rays.sector(edges[i]) as usize]];
+                way.extend(
+                    hits.into_iter().flat_map(|face| [false, true].map(|beyond| self.shell(face, beyond))),
+                );
+                way.push(n as u32);
+                way
+            });
+            for &[here, next] in ways.iter().flat_map(|way| way.as_chunks().0) {
+                sets.union(here, next);
             }
         }
         let (labels, n_cells) = sets.labels();

@@ -366,10 +366,9 @@ fn contacts(soup: &Soup, pairs: &[[u32; 2]], course: &Course) -> Result<Contacts
         out
     })?;
     let n_points = soup.geometry.n_points() as u32;
-    Ok(parts.into_iter().fold(Contacts::default(), |mut all, part| {
-        all.append(part, n_points);
-        all
-    }))
+    let mut all = Contacts::with_room_for(&parts);
+    parts.into_iter().for_each(|part| all.append(part, n_points));
+    Ok(all)
 }
 
 /// The sets of facets that overlap in one plane.

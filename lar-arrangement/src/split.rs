@@ -4,6 +4,7 @@
 use crate::crossing::{Contacts, Segment};
 use crate::interner::Interner;
 use crate::kernel::{Along, Sign};
+use crate::parallel;
 use crate::soup::Soup;
 
 /// The contacts of all facets, by edge and by facet.
@@ -62,20 +63,24 @@ impl Cuts {
         interner.reserve(contacts.vertices.len());
         let ids: Vec<u32> = contacts.vertices.into_iter().map(|v| interner.intern(v, geometry)).collect();
         let id = |v: u32| if v < n_points { v } else { ids[(v - n_points) as usize] };
-        let mut splits: Vec<(u32, u32)> = contacts.splits.into_iter().map(|(e, v)| (e, id(v))).collect();
-        splits.sort_unstable();
-        splits.dedup();
-        let mut segments: Vec<Segment> =
-            contacts.segments.into_iter().map(|s| Segment { ends: s.ends.map(id), ..s }).collect();
-        segments.sort_by_key(|s| (s.facet, s.other, s.ends));
-        let mut touches: Vec<(u32, u32)> = contacts.touches.into_iter().map(|(f, v)| (f, id(v))).collect();
-        touches.sort_unstable();
-        touches.dedup();
-        Self {
-            inner: sorted_along_edges(soup, splits, interner),
-            segments: Sparse::new(segments, |s| s.facet, |s| s),
-            touches: Sparse::new(touches, |t| t.0, |t| t.1),
-        }
+        let Contacts { splits, segments, touches, .. } = contacts;
+        let inside_edges = || {
+            let mut splits: Vec<(u32, u32)> = splits.into_iter().map(|(e, v)| (e, id(v))).collect();
+            splits.sort_unstable();
+            splits.dedup();
+            sorted_along_edges(soup, splits, interner)
+        };
+        let inside_facets = || {
+            let mut segments: Vec<Segment> =
+                segments.into_iter().map(|s| Segment { ends: s.ends.map(id), ..s }).collect();
+            segments.sort_by_key(|s| (s.facet, s.other, s.ends));
+            let mut touches: Vec<(u32, u32)> = touches.into_iter().map(|(f, v)| (f, id(v))).collect();
+            touches.sort_unstable();
+            touches.dedup();
+            (Sparse::new(segments, |s| s.facet, |s| s), Sparse::new(touches, |t| t.0, |t| t.1))
+        };
+        let (inner, (segments, touches)) = parallel::join(inside_edges, inside_facets);
+        Self { inner, segments, touches }
     }
 
     /// The facets with segments inside, ascending.

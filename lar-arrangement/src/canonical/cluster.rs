@@ -221,8 +221,8 @@ impl Search<'_> {
     /// point).
     fn add_touching_corners(&self, clusters: &mut [Cluster]) {
         let (n_facets, n_points) = (self.input.soup.n_facets(), self.geometry().n_points());
-        let paired = partners(n_facets, self.input.pairs);
-        let at_corner = self.facets_at_corners(clusters);
+        let (paired, at_corner) =
+            parallel::join(|| partners(n_facets, self.input.pairs), || self.facets_at_corners(clusters));
         let n = clusters.len();
         let part_of = |part| parallel::part_of(n, part);
         let parts = parallel::cut(clusters, (0..parallel::n_threads()).map(|part| part_of(part).len()));

@@ -48,20 +48,27 @@ impl Scan {
             let is_across = outlines.outlines[f].is_across(&outlines.outlines[g]);
             !is_across && are_nearly_coplanar(input, *pair, |f| *outlines.shape(f))
         };
-        let (n_chunks, range) = parallel::chunks(input.pairs.len(), PAIRS_A_CHUNK);
-        let mut coplanar = course.map(n_chunks, |chunk| {
-            input.pairs[range(chunk)].iter().copied().filter(is_coplanar).collect::<Vec<_>>()
-        })?;
         let largest =
             input.soup.tolerances.iter().copied().fold(Tolerance::default(), Tolerance::max).planes();
-        let (n_chunks, range) = parallel::chunks(input.soup.n_facets(), PAIRS_A_CHUNK);
-        coplanar.extend(course.map(n_chunks, |chunk| {
-            let mut found = Vec::new();
-            range(chunk).for_each(|f| coplanar_neighbours(input, f as u32, largest, &mut found));
-            found
-        })?);
+        let of_pairs = || {
+            let (n_chunks, range) = parallel::chunks(input.pairs.len(), PAIRS_A_CHUNK);
+            course.map(n_chunks, |chunk| {
+                input.pairs[range(chunk)].iter().copied().filter(is_coplanar).collect::<Vec<_>>()
+            })
+        };
+        let of_neighbours = || {
+            let (n_chunks, range) = parallel::chunks(input.soup.n_facets(), PAIRS_A_CHUNK);
+            course.map(n_chunks, |chunk| {
+                let mut found = Vec::new();
+                range(chunk).for_each(|f| coplanar_neighbours(input, f as u32, largest, &mut found));
+                found
+            })
+        };
+        // The first is one thread's work; the others have the second to do meanwhile.
+        let (near, coplanar) = parallel::join(|| near::points(input), || Ok((of_pairs()?, of_neighbours()?)));
+        let (of_pairs, of_neighbours) = coplanar?;
         course.go_on()?;
-        Ok(Self { near: near::points(input), coplanar: coplanar.concat() })
+        Ok(Self { near, coplanar: of_pairs.into_iter().chain(of_neighbours).flatten().collect() })
     }
 }
 
