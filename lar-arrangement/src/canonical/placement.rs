@@ -81,7 +81,7 @@ fn clusters_at_points(clusters: &[Cluster], n_points: usize) -> Cells {
 struct Place {
     point: RationalPoint,
     rounded: [f64; 3],
-    /// The planes it lies on.
+    /// The planes it lies on, ascending.
     on: Vec<u32>,
 }
 
@@ -109,6 +109,7 @@ fn placed(at: [i64; 3], candidates: &[(u32, bool)], clusters: &[Cluster]) -> Pla
         plane.widened::<4>().scaled_side(&place.point.widened()).sign() == Sign::Zero
     };
     place.on = candidates.iter().map(|c| c.0).filter(is_on).collect();
+    place.on.sort_unstable();
     place
 }
 
@@ -182,6 +183,7 @@ impl Placement {
         for (Place { point, rounded, on }, id) in self.places.iter().zip(0..) {
             let nearest = rounded.map(|x| x.round() as i64);
             points.push(nearest);
+            debug_assert!(on.is_sorted(), "planes are looked for by bisection");
             canonical.planes_of_point.push(on);
             if nearest.map(|x| x as f64) == *rounded
                 && RationalPoint::grid(nearest).widened::<5>().equals(&point.widened())
