@@ -61,7 +61,7 @@ fn spheres_on_a_lattice() {
 }
 
 /// Smooth surfaces that fold over and cross themselves: large parts of them are seen side by side along an axis, others
-/// cover themselves.
+/// cover themselves. Of some there are so many triangles that those which nothing comes near are not looked at.
 #[test]
 fn spheres_bent_by_waves() {
     let n_cells = Cell::new(0);
@@ -76,7 +76,8 @@ fn spheres_bent_by_waves() {
                 p[k] + height * (a * p[0] + b * p[1] + c * p[2]).sin()
             })
         };
-        n_cells.set(n_cells.get() + check(&crumpled(3, bent), seed).n_cells() - 2);
+        let level = if seed % 6 == 5 { 4 } else { 3 };
+        n_cells.set(n_cells.get() + check(&crumpled(level, bent), seed).n_cells() - 2);
     });
     assert!(n_cells.get() > 50, "only {} cells", n_cells.get());
 }
