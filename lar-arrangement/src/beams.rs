@@ -19,10 +19,11 @@ use crate::soup::Soup;
 const FACETS_A_CHUNK: usize = 1 << 12;
 /// Cells along an axis. All targets are in those that are not at a border.
 const CELLS: usize = 64;
-/// So few targets that two facets in three of a mesh that surrounds them meet none, even as the cells see it.
+/// Of the 62 × 62 cells that may hold targets so many fill one in fifteen: most facets reach into none. A facet is compared with no
+/// more than so many.
 pub(crate) const TARGETS_A_PASS: usize = 256;
 
-/// The facets whose boxes meet each target. O(facets + targets · facets that a target is near to).
+/// The facets whose boxes meet each target. O(facets + targets · facets with one in the same cells).
 pub(crate) fn facets_in(soup: &Soup, targets: &[Aabb]) -> Vec<Vec<u32>> {
     if let [target] = targets {
         return vec![facets_in_one(soup, target)];
@@ -58,7 +59,7 @@ pub(crate) fn facets_in(soup: &Soup, targets: &[Aabb]) -> Vec<Vec<u32>> {
     facets
 }
 
-/// The facets whose boxes meet one other. O(n).
+/// The facets whose boxes meet one other, as most scenes have one component: half the time that the cells would take. O(n).
 fn facets_in_one(soup: &Soup, target: &Aabb) -> Vec<u32> {
     // A box beyond one of the target's sides has all its corners there.
     let sides = parallel::map_light(soup.geometry.n_points(), |p| {

@@ -379,6 +379,7 @@ impl Outline<'_> {
             .collect();
         // The first that fails ends the search: crossing boundaries may have many pairs.
         if boxes.len() <= SHORT {
+            // Each has so many others at most.
             boxes.sort_unstable_by(|a, b| a.0.lo[0].total_cmp(&b.0.lo[0]));
             return boxes.iter().enumerate().all(|(i, (a, edge))| {
                 let mut beside = boxes[i + 1..].iter().take_while(|(b, _)| b.lo[0] <= a.hi[0]);

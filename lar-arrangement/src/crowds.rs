@@ -137,24 +137,16 @@ impl Voxels {
         blocks.iter().try_fold(MOST_VOXELS_A_FACET * firsts.len(), |left, &block| {
             left.checked_sub(width(block).iter().map(|width| width + 1).product())
         })?;
-        let n = self.size.iter().product();
-        let mut marks = vec![Shared::default(); n];
-        let part_of = |part| parallel::part_of(n, part);
-        let parts = parallel::cut(&mut marks, (0..parallel::n_threads()).map(|part| part_of(part).len()));
-        parallel::map_each(parts, |part, marks| {
-            let start = part_of(part).start;
+        let mut marks = vec![Shared::default(); self.size.iter().product()];
+        parallel::map_parts(&mut marks, |range, marks| {
             for (facet, &first) in firsts.iter().enumerate() {
-                if let Some(mark) = (first as usize).checked_sub(start).and_then(|i| marks.get_mut(i)) {
+                if let Some(mark) = (first as usize).checked_sub(range.start).and_then(|i| marks.get_mut(i)) {
                     *mark = mark.with(charts.all(facet as u32));
                 }
             }
             for (&facet, &block) in large.iter().zip(&blocks) {
                 let own = charts.all(facet);
-                self.each(block, |voxel| {
-                    if let Some(mark) = marks.get_mut(voxel.wrapping_sub(start)) {
-                        *mark = mark.with(own);
-                    }
-                });
+                self.each_in(block, range.start, marks, |mark| *mark = mark.with(own));
             }
         });
         Some(marks)
@@ -168,25 +160,22 @@ impl Voxels {
         blocks: &[Block],
         charts: impl Fn(usize) -> Shared + Sync + Send,
     ) {
-        let n = marks.len();
-        let part_of = |part| parallel::part_of(n, part);
-        let parts = parallel::cut(marks, (0..parallel::n_threads()).map(|part| part_of(part).len()));
-        parallel::map_each(parts, |part, marks| {
-            let start = part_of(part).start;
+        parallel::map_parts(marks, |range, marks| {
             for &block in blocks {
-                self.each(block, |voxel| {
-                    if let Some(mark) = marks.get_mut(voxel.wrapping_sub(start)) {
-                        *mark = Shared::default();
-                    }
-                });
+                self.each_in(block, range.start, marks, |mark| *mark = Shared::default());
             }
             for (i, &block) in blocks.iter().enumerate() {
                 let own = charts(i);
-                self.each(block, |voxel| {
-                    if let Some(mark) = marks.get_mut(voxel.wrapping_sub(start)) {
-                        *mark = mark.with(own);
-                    }
-                });
+                self.each_in(block, range.start, marks, |mark| *mark = mark.with(own));
+            }
+        });
+    }
+
+    /// Changes the marks of a block's voxels that are in a part of all, with some more than once.
+    fn each_in(&self, block: Block, begin: usize, part: &mut [Shared], change: impl Fn(&mut Shared)) {
+        self.each(block, |voxel| {
+            if let Some(mark) = part.get_mut(voxel.wrapping_sub(begin)) {
+                change(mark);
             }
         });
     }

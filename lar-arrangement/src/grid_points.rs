@@ -28,11 +28,8 @@ impl Unified {
         let at = |i: u32| points[i as usize];
         let mut table = PointTable { slots: parallel::zeros(PointTable::n_slots(points.len())) };
         let n_slots = table.slots.len();
-        let part_of = |part: usize| parallel::part_of(n_slots, part);
-        let parts =
-            parallel::cut(&mut table.slots, (0..parallel::n_threads()).map(|part| part_of(part).len()));
-        let filled = parallel::map_each(parts, |part, slots| {
-            let mut part = Part { slots, range: part_of(part), bits: n_slots.ilog2(), ..Part::default() };
+        let filled = parallel::map_parts(&mut table.slots, |range, slots| {
+            let mut part = Part { slots, range, bits: n_slots.ilog2(), ..Part::default() };
             let mut own = [(0, 0); BLOCK];
             for (block, begin) in points.chunks(BLOCK).zip((0..).step_by(BLOCK)) {
                 let mut n = 0;

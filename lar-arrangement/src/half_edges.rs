@@ -191,13 +191,10 @@ pub(crate) const MANY: u32 = u32::MAX - 1;
 /// Every thread looks at all facets for its part of the edges.
 pub(crate) fn facets_of_edges(n_edges: usize, facet_edges: &Cells) -> Vec<[u32; 2]> {
     let mut out = parallel::map_light(n_edges, |_| [NONE; 2]);
-    let part_of = |part| parallel::part_of(n_edges, part);
-    let parts = parallel::cut(&mut out, (0..parallel::n_threads()).map(|part| part_of(part).len()));
-    parallel::map_each(parts, |part, out| {
-        let begin = part_of(part).start;
+    parallel::map_parts(&mut out, |range, out| {
         for (codes, facet) in facet_edges.iter().zip(0..) {
             for &code in codes {
-                let place = ((code / 2) as usize).checked_sub(begin);
+                let place = ((code / 2) as usize).checked_sub(range.start);
                 let Some(users) = place.and_then(|place| out.get_mut(place)) else { continue };
                 let user = &mut users[(code % 2) as usize];
                 *user = if *user == NONE { facet } else { MANY };

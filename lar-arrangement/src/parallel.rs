@@ -454,6 +454,17 @@ pub(crate) fn part_of(n: usize, part: usize) -> std::ops::Range<usize> {
     n * part / n_parts..n * (part + 1) / n_parts
 }
 
+/// Applies `f` to each of as many parts of a slice as there are threads, and to what of it that is: for work in which every thread
+/// looks at all there is and writes its own part.
+pub(crate) fn map_parts<T: Send, R: Send>(
+    items: &mut [T],
+    f: impl Fn(std::ops::Range<usize>, &mut [T]) -> R + Sync + Send,
+) -> Vec<R> {
+    let n = items.len();
+    let parts = cut(items, (0..n_threads()).map(|part| part_of(n, part).len()));
+    map_each(parts, |part, items| f(part_of(n, part), items))
+}
+
 /// The part of 0..n that x is in.
 pub(crate) fn part_with(n: usize, x: usize) -> usize {
     ((x + 1) * n_threads()).div_ceil(n) - 1

@@ -223,10 +223,7 @@ impl Search<'_> {
         let (n_facets, n_points) = (self.input.soup.n_facets(), self.geometry().n_points());
         let (paired, at_corner) =
             parallel::join(|| partners(n_facets, self.input.pairs), || self.facets_at_corners(clusters));
-        let n = clusters.len();
-        let part_of = |part| parallel::part_of(n, part);
-        let parts = parallel::cut(clusters, (0..parallel::n_threads()).map(|part| part_of(part).len()));
-        parallel::each(parts, |clusters| {
+        parallel::map_parts(clusters, |_, clusters| {
             // The last cluster that a facet and a point were looked at for.
             let (mut facet_seen, mut point_seen) = (vec![u32::MAX; n_facets], vec![u32::MAX; n_points]);
             for (cluster, id) in clusters.iter_mut().zip(0..) {

@@ -242,14 +242,12 @@ impl<'a> Numbering<'a> {
         let n = old.len();
         // The first part gets room for the others.
         let n_edges = (n as u32).wrapping_add(self.shift()) as usize;
-        let range = |part| parallel::part_of(n, part);
-        let parts = parallel::cut(&mut self.whole, (0..parallel::n_threads()).map(|part| range(part).len()));
-        let mut parts = parallel::map_each(parts, |part, whole| {
-            let range = range(part);
+        let mut parts = parallel::map_parts(&mut self.whole, |range, whole| {
             let changes_before = |edge: usize| changes.partition_point(|change| (change.at as usize) < edge);
             let begin = changes_before(range.start);
             let end = if range.end == n { changes.len() } else { changes_before(range.end) };
-            let mut out = Vec::with_capacity(if part == 0 { n_edges } else { range.len() + end - begin });
+            let mut out =
+                Vec::with_capacity(if range.start == 0 { n_edges } else { range.len() + end - begin });
             let mut shift = begin.checked_sub(1).map_or(0, |last| changes[last].shift);
             let mut from = range.start;
             let mut keep = |out: &mut Vec<[u32; 2]>, kept: Range<usize>, shift: u32| {
