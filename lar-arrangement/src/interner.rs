@@ -51,6 +51,14 @@ impl Interner {
         interner
     }
 
+    /// Forgets all vertices that were pushed or interned, but keeps their memory.
+    pub(crate) fn clear(&mut self) {
+        self.vertices.clear();
+        self.next_at.clear();
+        self.first_at.clear();
+        self.n_entered = 0;
+    }
+
     /// Makes room for so many vertices more.
     pub(crate) fn reserve(&mut self, n: usize) {
         self.vertices.reserve(n);

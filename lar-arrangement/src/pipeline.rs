@@ -8,7 +8,7 @@ use crate::coplanar::{self, Overlay};
 use crate::crossing::{self, Contacts, Scratch};
 use crate::dissolve::{self, Dissolved};
 use crate::error::ArrangementError;
-use crate::fragment::{Extent, Fragmenter, Fragments, Groups};
+use crate::fragment::{Extent, Fragmenter, Fragments, Groups, Room};
 use crate::interner::Interner;
 use crate::meeting::Meeting;
 use crate::nest::Nesting;
@@ -397,9 +397,10 @@ fn fragments(
 ) -> Result<Vec<Fragments>, Cancelled> {
     let (n_chunks, range) = parallel::chunks(groups.members.len(), GROUPS_A_CHUNK);
     course.map(n_chunks, |chunk| {
-        let mut out = Fragments::default();
+        let (mut out, mut room) = (fragmenter.room_for(&groups.members, range(chunk)), Room::default());
         // Groups after one that was cancelled change nothing: the whole stage is.
-        let _ = range(chunk).try_for_each(|group| fragmenter.fragment(&groups.members[group], &mut out));
+        let _ = range(chunk)
+            .try_for_each(|group| fragmenter.fragment(&groups.members[group], &mut room, &mut out));
         out
     })
 }

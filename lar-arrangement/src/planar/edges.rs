@@ -122,7 +122,8 @@ impl Edges {
         let next = rotation.next(self, carriers);
         // On a single thread the rotation's memory is free before the cycles are made.
         let rest = || (rotation.components(self.runs.len()), beside());
-        let ((components, beside), cycles) = parallel::join(rest, || Cycles::new(next));
+        let ((components, beside), cycles) =
+            parallel::join(rest, || Cycles::new(next, <[Vec<u32>; 2]>::default()));
         (cycles, components, beside)
     }
 }

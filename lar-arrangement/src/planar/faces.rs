@@ -43,7 +43,7 @@ impl Embedding<'_> {
         let first_edge = |i: usize| self.edges.runs[firsts[sweep[i] as usize] as usize].first_edge;
         let outer = parallel::map_light(sweep.len(), |i| cycles.of[2 * first_edge(i) as usize]);
         let around = parallel::map_light(sweep.len(), |i| around[sweep[i] as usize]);
-        Ok(Subdivision::nested(cycles, &outer, &around))
+        Ok(Subdivision::nested(cycles, &outer, &around, <[Vec<u32>; 3]>::default()))
     }
 
     /// The order of some runs by `cmp_starts`: by narrow strips first.
