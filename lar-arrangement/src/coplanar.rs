@@ -2,7 +2,7 @@
 //! is fragmented as one.
 
 use crate::crossing::Contacts;
-use crate::kernel::{Along, Geometry, Seen, Sign, longest_axis};
+use crate::kernel::{Seen, Sign};
 use crate::soup::Soup;
 
 /// Two facets in one plane, and how the corners of each lie to the edges of the other.
@@ -18,17 +18,19 @@ pub(crate) struct Overlay {
 #[derive(Default)]
 struct Facet {
     id: u32,
-    edges: Vec<u32>,
-    /// Of each edge.
-    ends: Vec<[u32; 2]>,
-    /// Where edge i starts.
-    corners: Vec<Seen>,
-    /// The edge after each edge in its loop.
-    next: Vec<usize>,
+    edges: Vec<Edge>,
     /// On which side of its edges the facet lies as it is seen.
     inner: Option<Sign>,
     /// The turn from edge i to corner j of the other facet, at `i * corners of the other + j`.
     turns: Vec<Sign>,
+}
+
+/// An edge of a facet.
+struct Edge {
+    number: u32,
+    start: Seen,
+    /// The edge after this one in its loop, by its place.
+    next: usize,
 }
 
 /// Splits the edges of two coplanar facets by each other; true when the facets' insides (may) overlap.
@@ -39,7 +41,7 @@ pub(crate) fn meet(soup: &Soup, pair: [u32; 2], overlay: &mut Overlay, out: &mut
     let [f, g] = &overlay.facets;
     for i in 0..f.edges.len() {
         for j in 0..g.edges.len() {
-            if f.edges[i] / 2 != g.edges[j] / 2 {
+            if f.edges[i].number != g.edges[j].number {
                 overlay.split_each_other(soup, [i, j], out);
             }
         }
@@ -67,27 +69,24 @@ impl Overlay {
     fn split_each_other(&self, soup: &Soup, [i, j]: [usize; 2], out: &mut Contacts) {
         let geometry = &soup.geometry;
         let [f, g] = &self.facets;
-        let of_h = f.turns_to(i, g, j);
-        if of_h[0].times(of_h[1]) == Sign::Positive {
+        let (of_h, of_e) = (f.turns_to(i, g, j), g.turns_to(j, f, i));
+        let sides = [of_h, of_e].map(|[from, to]| from.times(to));
+        if sides.contains(&Sign::Positive) {
             return;
         }
-        let of_e = g.turns_to(j, f, i);
-        if of_e[0].times(of_e[1]) == Sign::Positive {
-            return;
-        }
-        let (e, h) = (f.edges[i] / 2, g.edges[j] / 2);
-        if of_h[0].times(of_h[1]) == Sign::Negative && of_e[0].times(of_e[1]) == Sign::Negative {
+        let (e, h) = (f.edges[i].number, g.edges[j].number);
+        if sides == [Sign::Negative; 2] {
             let ends = [e, h].map(|e| soup.edges[e as usize]);
             let def = geometry.crossing_definition(ends, f.id, self.axis);
             let v = out.edge_vertex(geometry, def, |def| geometry.vertex_on_edge(def));
             out.splits.extend([(e, v), (h, v)]);
             return;
         }
-        for (edge, ends, others, turns) in [(e, f.ends[i], g.ends[j], of_h), (h, g.ends[j], f.ends[i], of_e)]
-        {
-            for (p, turn) in others.into_iter().zip(turns) {
-                if turn == Sign::Zero && strictly_between(geometry, ends, p) {
-                    out.splits.push((edge, p));
+        let (ends_e, ends_h) = (f.ends(i), g.ends(j));
+        for (edge, ends, others, turns) in [(e, ends_e, ends_h, of_h), (h, ends_h, ends_e, of_e)] {
+            for (point, turn) in others.into_iter().zip(turns) {
+                if turn == Sign::Zero && geometry.is_inside_edge(ends, point) {
+                    out.splits.push((edge, point.p));
                 }
             }
         }
@@ -109,13 +108,10 @@ impl Facet {
         let edges = &soup.facet_edges[id as usize];
         self.id = id;
         self.edges.clear();
-        self.ends.clear();
-        self.corners.clear();
-        self.next.clear();
-        self.edges.extend_from_slice(edges);
-        self.ends.extend(edges.iter().map(|&e| soup.directed(e)));
-        self.corners.extend(self.ends.iter().map(|&[p, _]| soup.geometry.seen_along(p, axis)));
-        self.next.extend((0..edges.len()).map(|i| soup.next_in_loop(edges, i)));
+        self.edges.extend(edges.iter().enumerate().map(|(i, &edge)| {
+            let start = soup.geometry.seen_along(soup.directed(edge)[0], axis);
+            Edge { number: edge / 2, start, next: soup.next_in_loop(edges, i) }
+        }));
         self.inner = Some(soup.geometry.normal_sign(id, axis));
     }
 
@@ -125,13 +121,12 @@ impl Facet {
         let mut turns = std::mem::take(&mut self.turns);
         turns.clear();
         let is_apart = (0..self.edges.len()).any(|i| {
-            let mut is_beyond = are_triangles;
-            for j in 0..other.edges.len() {
-                let turn = self.turn(soup, i, (other, j), axis);
-                is_beyond &= match turn {
-                    Sign::Zero => self.ends[i].contains(&other.ends[j][0]),
-                    turn => Some(turn) != self.inner,
-                };
+            let (mut is_beyond, [a, b]) = (are_triangles, self.ends(i));
+            for corner in &other.edges {
+                let corner = &corner.start;
+                let turn = soup.geometry.turn_in_plane(self.id, [a, b, corner], axis);
+                let is_end = (corner.p == a.p) | (corner.p == b.p);
+                is_beyond &= (Some(turn) != self.inner) & (is_end | (turn != Sign::Zero));
                 turns.push(turn);
             }
             is_beyond
@@ -140,41 +135,24 @@ impl Facet {
         !is_apart
     }
 
-    /// The turn from edge i to corner j of a facet in the same plane.
-    fn turn(&self, soup: &Soup, i: usize, (other, j): (&Self, usize), axis: usize) -> Sign {
-        if self.ends[i].contains(&other.ends[j][0]) {
-            return Sign::Zero;
-        }
-        let [a, b] = [i, self.next[i]].map(|corner| &self.corners[corner]);
-        soup.geometry.turn_in_plane(self.id, [a, b, &other.corners[j]], axis)
+    /// The ends of edge i.
+    fn ends(&self, i: usize) -> [&Seen; 2] {
+        [i, self.edges[i].next].map(|edge| &self.edges[edge].start)
     }
 
     /// The turns from edge i to the ends of edge j of the other facet.
     fn turns_to(&self, i: usize, other: &Self, j: usize) -> [Sign; 2] {
         let turns = &self.turns[i * other.edges.len()..];
-        [turns[j], turns[other.next[j]]]
+        [turns[j], turns[other.edges[j].next]]
     }
 
     fn is_convex(&self, soup: &Soup, axis: usize) -> bool {
-        let is_in = |turn: Sign| turn == Sign::Zero || Some(turn) == self.inner;
+        let is_in = |i: usize, corner: &Edge| {
+            let [a, b] = self.ends(i);
+            let turn = soup.geometry.turn_in_plane(self.id, [a, b, &corner.start], axis);
+            turn == Sign::Zero || Some(turn) == self.inner
+        };
         let n = self.edges.len();
-        n == 3 || (0..n).all(|i| (0..n).all(|j| is_in(self.turn(soup, i, (self, j), axis))))
+        n == 3 || (0..n).all(|i| self.edges.iter().all(|corner| is_in(i, corner)))
     }
-}
-
-/// For a point on the line of an edge: whether it lies inside the edge.
-fn strictly_between(geometry: &Geometry, ends: [u32; 2], p: u32) -> bool {
-    // Rounding is monotone: a point outside of the rounded box is outside of the exact one.
-    let ([a, b], at) = (ends.map(|p| geometry.position(p)), geometry.position(p));
-    if (0..3).any(|k| at[k] < a[k].min(b[k]) || a[k].max(b[k]) < at[k]) {
-        return false;
-    }
-    // So does a place strictly between others.
-    let k = longest_axis(std::array::from_fn(|k| b[k] - a[k]));
-    if a[k].min(b[k]) < at[k] && at[k] < a[k].max(b[k]) {
-        return true;
-    }
-    let (axis, sign) = geometry.axis_of(&geometry.direction(Along::Edge(ends)));
-    let [low, high] = if sign == Sign::Positive { ends } else { [ends[1], ends[0]] };
-    geometry.cmp_points(low, p, axis).is_lt() && geometry.cmp_points(p, high, axis).is_lt()
 }

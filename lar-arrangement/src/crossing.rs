@@ -12,8 +12,7 @@
 //! ```
 
 use crate::boxes::Aabb;
-use crate::kernel::{Along, Direction, Geometry, Sign, Vertex, VertexDef};
-use crate::meeting::box_of;
+use crate::kernel::{Along, Direction, Geometry, Side, Sign, Spot, Vertex, VertexDef, crossing_near};
 use crate::soup::Soup;
 use rustc_hash::FxHashMap;
 use std::cell::OnceCell;
@@ -122,15 +121,19 @@ struct Stop {
 }
 
 impl Stop {
-    fn corner(geometry: &Geometry, p: u32, axis: usize, toggles: [bool; 2]) -> Self {
-        let vertex = geometry.point_vertex(p);
-        let (at, error) = (vertex.at[axis], geometry.rounding_of(p));
-        Self { site: Site::Corner(p), at, error, vertex: vertex.into(), toggles, gap: Gap::Outside }
+    fn corner(corner: &Spot, axis: usize, toggles: [bool; 2]) -> Self {
+        let site = Site::Corner(corner.p);
+        Self {
+            site,
+            at: corner.at[axis],
+            error: corner.rounding,
+            vertex: OnceCell::new(),
+            toggles,
+            gap: Gap::Outside,
+        }
     }
 
-    fn inside(soup: &Soup, edge: u32, facet: u32, axis: usize) -> Self {
-        let (at, error) = soup.geometry.crossing_near(soup.edges[edge as usize], facet, axis);
-        let site = Site::Inside { edge, facet };
+    fn inside(site: Site, (at, error): (f64, f64)) -> Self {
         Self { site, at, error, vertex: OnceCell::new(), toggles: [true, true], gap: Gap::Outside }
     }
 
@@ -143,65 +146,91 @@ impl Stop {
 
     /// The vertex, from the definition.
     fn vertex(&self, geometry: &Geometry, def: VertexDef) -> &Vertex {
-        self.vertex.get_or_init(|| geometry.vertex_on_edge(def))
+        self.vertex.get_or_init(|| match def {
+            VertexDef::Point(p) => geometry.point_vertex(p),
+            _ => geometry.vertex_on_edge(def),
+        })
+    }
+
+    /// Whether this one comes first along the axis beyond doubt.
+    fn is_clearly_before(&self, other: &Self) -> bool {
+        other.at - self.at > self.error + other.error
     }
 
     /// Order along `axis`, exactly.
     fn cmp(&self, other: &Self, soup: &Soup, axis: usize) -> Ordering {
-        if (self.at - other.at).abs() > self.error + other.error {
-            return self.at.total_cmp(&other.at);
+        if self.is_clearly_before(other) {
+            return Ordering::Less;
+        }
+        if other.is_clearly_before(self) {
+            return Ordering::Greater;
         }
         let (a, b, geometry) = (self.definition(soup), other.definition(soup), &soup.geometry);
-        if a == b {
-            return Ordering::Equal;
-        }
-        geometry.cmp_coordinate(self.vertex(geometry, a), other.vertex(geometry, b), axis)
+        geometry.cmp_coordinate_by_definition([&a, &b], axis).unwrap_or_else(|| {
+            geometry.cmp_coordinate(self.vertex(geometry, a), other.vertex(geometry, b), axis)
+        })
     }
 }
 
-/// Buffers for the pairs of one chunk.
+/// A facet as it is read for a pair.
 #[derive(Default)]
-pub(crate) struct Scratch {
-    signs: [Vec<Sign>; 2],
-    traces: [Vec<Stop>; 2],
-    on_line: Vec<(u32, [u32; 2])>,
+struct Outline {
+    facet: u32,
+    /// The tails of its directed edges.
+    corners: Vec<Spot>,
+    /// Where each lies to the plane of the other facet.
+    sides: Vec<Side>,
 }
 
-/// Finds what facets f and g have in common.
-pub(crate) fn meet(soup: &Soup, f: u32, g: u32, scratch: &mut Scratch, out: &mut Contacts) {
-    let [signs_f, signs_g] = &mut scratch.signs;
-    match classify(soup, f, g, signs_f) {
-        Position::Apart => return,
-        Position::Coplanar => return out.coplanar.push([f, g]),
-        Position::Across => {}
-    }
-    if is_touched_outside(soup, f, g, signs_f) || classify(soup, g, f, signs_g) != Position::Across {
-        return;
-    }
-    if is_touched_outside(soup, g, f, signs_g) {
-        return;
-    }
-    let geometry = &soup.geometry;
-    let axis = geometry.axis_of_line([f, g]);
-    for (i, (this, other)) in [(f, g), (g, f)].into_iter().enumerate() {
-        let (signs, stops) = (&scratch.signs[i], &mut scratch.traces[i]);
-        match signs[..] {
-            [a, b, c] => trace_triangle(soup, this, other, axis, [a, b, c], stops),
-            _ => trace(soup, this, other, axis, signs, &mut scratch.on_line, stops),
+impl Outline {
+    /// O(its edges), of which there are at most 64.
+    fn read(&mut self, soup: &Soup, facet: u32) {
+        let geometry = &soup.geometry;
+        self.facet = facet;
+        self.corners.clear();
+        match &soup.facet_edges[facet as usize] {
+            [_, _, _] => self.corners.extend(geometry.base(facet).map(|p| geometry.spot(p))),
+            edges => self.corners.extend(edges.iter().map(|&edge| geometry.spot(soup.directed(edge)[0]))),
         }
     }
-    overlay(soup, [f, g], axis, &scratch.traces, out);
-}
 
-/// Whether facet f has corners on the plane of g but does not cross it, and these lie where g is not. A quick test: their
-/// box against that of g; rounding is monotone.
-fn is_touched_outside(soup: &Soup, f: u32, g: u32, signs: &[Sign]) -> bool {
-    if signs.contains(&Sign::Positive) && signs.contains(&Sign::Negative) {
-        return false;
+    /// Finds the sides of the corners to the plane of g. Most pairs end here.
+    fn classify(&mut self, soup: &Soup, g: u32) -> Position {
+        let (of_g, plane) = (soup.geometry.base(g), soup.geometry.seen_from(g));
+        let (mut below, mut above, mut on, mut shares) = (false, false, false, false);
+        self.sides.clear();
+        self.sides.extend(self.corners.iter().map(|corner| {
+            let side = plane.side(corner);
+            let is_shared = of_g.iter().fold(false, |is_shared, &p| is_shared | (p == corner.p));
+            below |= side.sign == Sign::Negative;
+            above |= side.sign == Sign::Positive;
+            on |= (side.sign == Sign::Zero) & !is_shared;
+            shares |= is_shared;
+            side
+        }));
+        let are_triangles = || self.corners.len() == 3 && soup.is_triangle(g);
+        match (below, above) {
+            (true, true) => Position::Across,
+            (false, false) => Position::Coplanar,
+            _ if on || (shares && !are_triangles()) => Position::Touching,
+            _ => Position::Apart,
+        }
     }
-    let corners = soup.facet_edges[f as usize].iter().zip(signs).filter(|(_, sign)| **sign == Sign::Zero);
-    let on_plane = Aabb::around(corners.map(|(&edge, _)| soup.geometry.position(soup.directed(edge)[0])));
-    !on_plane.meets(&box_of(soup, g))
+
+    /// For a facet that touches the plane of another: whether its corners there lie where the other is not. A quick test: their
+    /// box against that of the other; rounding is monotone.
+    fn is_outside(&self, other: &Self) -> bool {
+        let corners = self.corners.iter().zip(&self.sides);
+        let on_plane = corners.filter(|(_, side)| side.sign == Sign::Zero).map(|(corner, _)| corner.at);
+        !Aabb::around(on_plane).meets(&Aabb::around(other.corners.iter().map(|corner| corner.at)))
+    }
+
+    /// Where edge i, from one corner to another, passes through the plane of g.
+    fn crossing(&self, edge: u32, [from, to]: [usize; 2], g: u32, axis: usize) -> Stop {
+        let [p, q] = [from, to].map(|corner| &self.corners[corner]);
+        let sides = [from, to].map(|corner| &self.sides[corner]);
+        Stop::inside(Site::Inside { edge, facet: g }, crossing_near([p, q], sides, axis))
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -210,51 +239,72 @@ enum Position {
     /// a shared edge.
     Apart,
     Coplanar,
-    /// The facet reaches the other's plane.
+    /// Some corners are on the plane, and all others on one side of it.
+    Touching,
+    /// There are corners on both sides.
     Across,
 }
 
-/// Signs of f's corners (tails of its directed edges) against the plane of g. Most pairs end here.
-fn classify(soup: &Soup, f: u32, g: u32, signs: &mut Vec<Sign>) -> Position {
-    signs.clear();
-    let geometry = &soup.geometry;
-    let edges = &soup.facet_edges[f as usize];
-    let of_g = geometry.base(g);
-    let plane = geometry.seen_from(g);
-    let are_triangles = edges.len() == 3 && soup.facet_edges[g as usize].len() == 3;
-    let mut any = [false; 3];
-    let mut push = |p: u32| {
-        let is_shared = of_g.contains(&p);
-        let sign = if is_shared { Sign::Zero } else { plane.side_of_point(p) };
-        any[(sign as i8 + 1) as usize] |= !(are_triangles && is_shared);
-        signs.push(sign);
-    };
-    match edges {
-        [_, _, _] => geometry.base(f).into_iter().for_each(push),
-        edges => edges.iter().for_each(|&edge| push(soup.directed(edge)[0])),
+/// Buffers for the pairs of one chunk.
+#[derive(Default)]
+pub(crate) struct Scratch {
+    outlines: [Outline; 2],
+    traces: [Vec<Stop>; 2],
+    on_line: Vec<(u32, [u32; 2])>,
+}
+
+/// Finds what facets f and g have in common.
+pub(crate) fn meet(soup: &Soup, f: u32, g: u32, scratch: &mut Scratch, out: &mut Contacts) {
+    let [of_f, of_g] = &mut scratch.outlines;
+    of_f.read(soup, f);
+    let position = of_f.classify(soup, g);
+    match position {
+        Position::Apart => return,
+        Position::Coplanar => return out.coplanar.push([f, g]),
+        Position::Touching | Position::Across => {}
     }
-    match any {
-        [false, _, false] => Position::Coplanar,
-        [true, false, false] | [false, false, true] => Position::Apart,
-        _ => Position::Across,
+    of_g.read(soup, g);
+    if position == Position::Touching && of_f.is_outside(of_g) {
+        return;
+    }
+    match of_g.classify(soup, f) {
+        Position::Apart | Position::Coplanar => return,
+        Position::Touching if of_g.is_outside(of_f) => return,
+        Position::Touching | Position::Across => {}
+    }
+    let axis = soup.geometry.axis_of_line([f, g]);
+    for (i, other) in [g, f].into_iter().enumerate() {
+        let (outline, stops) = (&scratch.outlines[i], &mut scratch.traces[i]);
+        match outline.corners.len() {
+            3 => trace_triangle(soup, outline, other, axis, stops),
+            _ => trace(soup, outline, other, axis, &mut scratch.on_line, stops),
+        }
+    }
+    let [a, b] = &scratch.traces;
+    let precedes = |a: &[Stop], b: &[Stop]| match (a.last(), b.first()) {
+        (Some(last), Some(first)) => last.is_clearly_before(first),
+        _ => true,
+    };
+    if !precedes(a, b) && !precedes(b, a) {
+        overlay(soup, [f, g], axis, &scratch.traces, out);
     }
 }
 
-/// The stops of a triangle on the plane of g, sorted along `axis`: one or two. Its corners are those of its base.
-fn trace_triangle(soup: &Soup, f: u32, g: u32, axis: usize, signs: [Sign; 3], stops: &mut Vec<Stop>) {
-    let geometry = &soup.geometry;
+/// The stops of a triangle on the plane of g, sorted along `axis`: one or two.
+fn trace_triangle(soup: &Soup, outline: &Outline, g: u32, axis: usize, stops: &mut Vec<Stop>) {
     stops.clear();
     let mut gap = Gap::Inside;
-    for (k, &code) in soup.facet_edges[f as usize].iter().enumerate() {
-        match (signs[k], signs[(k + 1) % 3]) {
-            (Sign::Zero, next) => {
-                stops.push(Stop::corner(geometry, geometry.base(f)[k], axis, [false; 2]));
-                if next == Sign::Zero {
+    for (k, &code) in soup.facet_edges[outline.facet as usize].iter().enumerate() {
+        let next = (k + 1) % 3;
+        match [k, next].map(|corner| outline.sides[corner].sign) {
+            [Sign::Zero, sign] => {
+                stops.push(Stop::corner(&outline.corners[k], axis, [false; 2]));
+                if sign == Sign::Zero {
                     gap = Gap::Along(code / 2);
                 }
             }
-            (here, next) if here.times(next) == Sign::Negative => {
-                stops.push(Stop::inside(soup, code / 2, g, axis));
+            [here, there] if here.times(there) == Sign::Negative => {
+                stops.push(outline.crossing(code / 2, [k, next], g, axis));
             }
             _ => {}
         }
@@ -267,31 +317,30 @@ fn trace_triangle(soup: &Soup, f: u32, g: u32, axis: usize, signs: [Sign; 3], st
     }
 }
 
-/// The stops of facet f on the plane of g, sorted along `axis`.
+/// The stops of a facet on the plane of g, sorted along `axis`.
 fn trace(
     soup: &Soup,
-    f: u32,
+    outline: &Outline,
     g: u32,
     axis: usize,
-    signs: &[Sign],
     on_line: &mut Vec<(u32, [u32; 2])>,
     stops: &mut Vec<Stop>,
 ) {
-    let geometry = &soup.geometry;
     stops.clear();
     on_line.clear();
-    let edges = &soup.facet_edges[f as usize];
+    let edges = &soup.facet_edges[outline.facet as usize];
     for (i, &edge) in edges.iter().enumerate() {
-        let [p, q] = soup.directed(edge);
-        match (signs[i], signs[soup.next_in_loop(edges, i)]) {
-            (Sign::Zero, Sign::Zero) => {
-                on_line.push((edge / 2, [p, q]));
-                push_corner(geometry, stops, p, axis, [false, false]);
-                push_corner(geometry, stops, q, axis, [false, false]);
+        let next = soup.next_in_loop(edges, i);
+        let [p, q] = [i, next].map(|corner| &outline.corners[corner]);
+        match [i, next].map(|corner| outline.sides[corner].sign) {
+            [Sign::Zero, Sign::Zero] => {
+                on_line.push((edge / 2, [p.p, q.p]));
+                push_corner(stops, p, axis, [false, false]);
+                push_corner(stops, q, axis, [false, false]);
             }
-            (Sign::Zero, s) => push_corner(geometry, stops, p, axis, toggles(s)),
-            (s, Sign::Zero) => push_corner(geometry, stops, q, axis, toggles(s)),
-            (s, t) if s != t => stops.push(Stop::inside(soup, edge / 2, g, axis)),
+            [Sign::Zero, s] => push_corner(stops, p, axis, toggles(s)),
+            [s, Sign::Zero] => push_corner(stops, q, axis, toggles(s)),
+            [s, t] if s != t => stops.push(outline.crossing(edge / 2, [i, next], g, axis)),
             _ => {}
         }
     }
@@ -313,10 +362,10 @@ fn toggles(sign: Sign) -> [bool; 2] {
     [sign == Sign::Positive, sign == Sign::Negative]
 }
 
-fn push_corner(geometry: &Geometry, stops: &mut Vec<Stop>, p: u32, axis: usize, toggles: [bool; 2]) {
-    match stops.iter_mut().find(|s| s.site == Site::Corner(p)) {
+fn push_corner(stops: &mut Vec<Stop>, corner: &Spot, axis: usize, toggles: [bool; 2]) {
+    match stops.iter_mut().find(|s| s.site == Site::Corner(corner.p)) {
         Some(stop) => (0..2).for_each(|k| stop.toggles[k] ^= toggles[k]),
-        None => stops.push(Stop::corner(geometry, p, axis, toggles)),
+        None => stops.push(Stop::corner(corner, axis, toggles)),
     }
 }
 
@@ -478,15 +527,15 @@ mod tests {
         fn triangles_are_traced_as_polygons_are(corners in prop::collection::vec(prop::array::uniform3(0u8..4), 12)) {
             let soup = soup(&corners);
             let n = soup.n_facets() as u32;
-            let (mut signs, mut on_line, mut found, mut expected) = Default::default();
+            let (mut outline, mut on_line, mut found, mut expected) = (Outline::default(), vec![], vec![], vec![]);
             for (f, g) in (0..n).flat_map(|f| (0..n).map(move |g| (f, g))).filter(|(f, g)| f != g) {
-                if classify(&soup, f, g, &mut signs) != Position::Across {
+                outline.read(&soup, f);
+                if matches!(outline.classify(&soup, g), Position::Apart | Position::Coplanar) {
                     continue;
                 }
                 let axis = soup.geometry.axis_of_line([f, g]);
-                trace(&soup, f, g, axis, &signs, &mut on_line, &mut expected);
-                let [a, b, c] = signs[..] else { panic!("triangles have three corners") };
-                trace_triangle(&soup, f, g, axis, [a, b, c], &mut found);
+                trace(&soup, &outline, g, axis, &mut on_line, &mut expected);
+                trace_triangle(&soup, &outline, g, axis, &mut found);
                 let key = |stops: &[Stop]| stops.iter().map(|stop| (stop.site, stop.gap)).collect::<Vec<_>>();
                 prop_assert_eq!(key(&found), key(&expected));
             }

@@ -56,7 +56,8 @@ impl Geometry {
     }
 
     /// A coordinate of a vertex, numerator and positive denominator, where a plane at right angles to the axis holds the
-    /// vertex by its definition: of at most 83 and 41 bits.
+    /// vertex by its definition, or it is on an edge of the grid and a plane at right angles to another axis: of at most 83 and
+    /// 42 bits.
     pub(super) fn coordinate(&self, def: &VertexDef, axis: usize) -> Option<[i128; 2]> {
         match *def {
             VertexDef::Point(p) => self.coordinate_of_point(p, axis),
@@ -66,7 +67,10 @@ impl Geometry {
                     Support::Vertical { axis: along, .. } if usize::from(along) == axis => None,
                     Support::Vertical { ends, .. } => self.coordinate_of_edge(ends, axis),
                 };
-                on_plane.or_else(|| self.coordinate_of_edge(ends, axis))
+                on_plane.or_else(|| self.coordinate_of_edge(ends, axis)).or_else(|| match support {
+                    Support::Facet(f) => self.coordinate_of_crossing(ends, f, axis),
+                    Support::Vertical { .. } => None,
+                })
             }
             VertexDef::Facets(facets) => facets.into_iter().find_map(|f| self.coordinate_of_facet(f, axis)),
         }
@@ -84,6 +88,19 @@ impl Geometry {
     pub(super) fn coordinate_of_edge(&self, ends: [u32; 2], axis: usize) -> Option<[i128; 2]> {
         let [p, q] = ends.map(|p| self.coordinate_of_point(p, axis));
         p.filter(|_| p == q)
+    }
+
+    /// Of the point where an edge of the grid passes through a facet of the grid at right angles to another axis.
+    fn coordinate_of_crossing(&self, ends: [u32; 2], facet: u32, axis: usize) -> Option<[i128; 2]> {
+        let [p, q] = ends.map(|p| self.grid_point(p));
+        let (p, q) = (p?, q?);
+        let across = (1..3).map(|k| (axis + k) % 3).find(|&k| p[k] != q[k])?;
+        let [at, 1] = self.coordinate_of_facet(facet, across)? else { return None };
+        let step = |k: usize| i128::from(q[k] - p[k]);
+        let (whole, part) = (step(across), at - i128::from(p[across]));
+        // Coordinates are at most 2^40 and their differences 2^41, so the numerator is below 2^83.
+        let numerator = i128::from(p[axis]) * whole + step(axis) * part;
+        Some(if whole > 0 { [numerator, whole] } else { [-numerator, -whole] })
     }
 
     /// Of a facet at right angles to the axis.

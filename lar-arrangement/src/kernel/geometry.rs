@@ -194,6 +194,7 @@ impl Geometry {
     }
 
     /// The point's position, correctly rounded.
+    #[inline]
     pub(crate) fn position(&self, p: u32) -> [f64; 3] {
         match self.rational_entry(p) {
             None => self.points[p as usize].map(|x| x as f64),
@@ -315,6 +316,8 @@ impl Geometry {
         self.normals.push(normal);
     }
 
+    /// The plane of a facet. A call, which returns seven numbers by memory, would take longer than the rest.
+    #[inline(always)]
     pub(super) fn float(&self, facet: u32) -> FloatPlane {
         let (base, normal) = (self.base(facet), self.normal(facet));
         // A rounded origin and a rounded position are off by 2^-13 each, their difference by 2^-12 more.

@@ -30,7 +30,13 @@ impl Direction {
 impl Geometry {
     /// On which side of a facet's plane an input point lies: positive on the side of the normal.
     pub(crate) fn side_of_point(&self, p: u32, facet: u32) -> Sign {
-        self.seen_from(facet).side_of_point(p)
+        self.seen_from(facet).side(&self.spot(p)).sign
+    }
+
+    /// An input point and where it is.
+    #[inline]
+    pub(crate) fn spot(&self, p: u32) -> Spot {
+        Spot { p, at: self.position(p), rounding: self.rounding_of(p) }
     }
 
     /// Makes ready for several points against one facet's plane.
@@ -40,6 +46,7 @@ impl Geometry {
         FacetPlane { geometry: self, facet, float: self.float(facet), is_on_grid }
     }
 
+    #[cold]
     fn side_of_point_exactly(&self, p: u32, facet: u32) -> Sign {
         if self.lies_on(p, facet) {
             return Sign::Zero;
@@ -103,32 +110,25 @@ impl Geometry {
     }
 
     fn cmp_coordinate_exactly(&self, a: &Vertex, b: &Vertex, axis: usize) -> Ordering {
-        if a.def == b.def {
-            return Ordering::Equal;
-        }
-        if let (Some([x, v]), Some([y, w])) = (self.coordinate(&a.def, axis), self.coordinate(&b.def, axis)) {
-            // At most 83 bits times 41.
-            return (x * w).cmp(&(y * v));
-        }
-        self.counters.count();
-        self.exact_order(&a.def, &b.def, axis)
+        self.cmp_coordinate_by_definition([&a.def, &b.def], axis).unwrap_or_else(|| {
+            self.counters.count();
+            self.exact_order(&a.def, &b.def, axis)
+        })
     }
 
-    /// A coordinate of the point where an edge passes through the plane of a facet, and a bound on its error.
-    pub(crate) fn crossing_near(&self, ends: [u32; 2], facet: u32, axis: usize) -> (f64, f64) {
-        let plane = self.float(facet);
-        let [p, q] = ends.map(|p| self.position(p));
-        let ((sp, mp), (sq, mq)) = (plane.sum(p), plane.sum(q));
-        let (whole, step) = (sp - sq, q[axis] - p[axis]);
-        let of_sides = (mp + mq) * 2f64.powi(-50) + 2.0 * plane.slack;
-        if 4.0 * of_sides >= whole.abs() {
-            return (p[axis], f64::INFINITY);
+    /// Order of two vertices along a coordinate axis, where their definitions are the same or [give](Self::coordinate) the
+    /// coordinates.
+    pub(crate) fn cmp_coordinate_by_definition(
+        &self,
+        [a, b]: [&VertexDef; 2],
+        axis: usize,
+    ) -> Option<Ordering> {
+        if a == b {
+            return Some(Ordering::Equal);
         }
-        // The part of the way is at most 1: it is off by little more than twice the sides' error over the whole.
-        let of_part = 3.0 * of_sides / whole.abs() + 2f64.powi(-50);
-        let of_ends = 4.0 * ends.map(|p| self.rounding_of(p)).iter().sum::<f64>();
-        let error = step.abs() * of_part + p[axis].abs() * 2f64.powi(-51) + of_ends;
-        (p[axis] + step * (sp / whole), error)
+        let ([x, v], [y, w]) = (self.coordinate(a, axis)?, self.coordinate(b, axis)?);
+        // At most 83 bits times 42.
+        Some((x * w).cmp(&(y * v)))
     }
 
     /// Whether two vertices are the same point.
@@ -331,36 +331,65 @@ pub(crate) struct FacetPlane<'a> {
 }
 
 impl FacetPlane<'_> {
-    /// On which side an input point lies: positive on the side of the normal.
-    #[inline]
-    pub(crate) fn side_of_point(&self, p: u32) -> Sign {
-        let is_exact = self.is_on_grid && self.geometry.grid_point(p).is_some();
-        let slack = if is_exact { 0.0 } else { self.float.slack };
-        let side = self.float.side(self.geometry.position(p), slack);
-        side.unwrap_or_else(|| self.geometry.side_of_point_exactly(p, self.facet))
-    }
-}
-
-impl FloatPlane {
-    /// n · (p − o), and the sum of the products' magnitudes.
-    fn sum(&self, p: [f64; 3]) -> (f64, f64) {
-        let terms: [f64; 3] = std::array::from_fn(|k| self.normal[k] * (p[k] - self.origin[k]));
-        (terms[0] + terms[1] + terms[2], terms[0].abs() + terms[1].abs() + terms[2].abs())
-    }
-
-    /// The side of an input point, when it is beyond doubt.
+    /// On which side an input point lies.
     ///
     /// Differences of grid coordinates are exact in f64 (41 bits), those of others within the slack; with three
     /// normal components off by 1.5 · 2^-53, three products and two sums the error is below 7 · 2^-53 of the sum of the
     /// products' magnitudes. Differences and components round to zero only when they are zero, and products do not
     /// underflow.
+    ///
+    /// A call, which returns three values by memory, would take longer than the rest.
+    #[inline(always)]
+    pub(crate) fn side(&self, point: &Spot) -> Side {
+        let (height, magnitude) = self.float.sum(point.at);
+        let is_exact = self.is_on_grid && point.rounding == 0.0;
+        let slack = if is_exact { 0.0 } else { self.float.slack };
+        let error = magnitude * 2f64.powi(-50) + slack;
+        let sign = sign_within(height, error)
+            .unwrap_or_else(|| self.geometry.side_of_point_exactly(point.p, self.facet));
+        Side { sign, height, error }
+    }
+}
+
+/// An input point and where it is, for tests against several planes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spot {
+    pub p: u32,
+    /// Its position, correctly rounded.
+    pub at: [f64; 3],
+    /// How far that may be off: 0 for a point of the grid.
+    pub rounding: f64,
+}
+
+/// On which side of a facet's plane an input point lies: positive on the side of the normal.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Side {
+    pub sign: Sign,
+    /// The height over the plane, up to a positive factor, within `error`.
+    height: f64,
+    error: f64,
+}
+
+/// A coordinate of the point where an edge passes through a plane, and a bound on its error, from the sides of the ends.
+pub(crate) fn crossing_near([p, q]: [&Spot; 2], [of_p, of_q]: [&Side; 2], axis: usize) -> (f64, f64) {
+    let (whole, step) = (of_p.height - of_q.height, q.at[axis] - p.at[axis]);
+    let of_sides = of_p.error + of_q.error;
+    if 4.0 * of_sides >= whole.abs() {
+        return (p.at[axis], f64::INFINITY);
+    }
+    // The part of the way is at most 1: it is off by little more than twice the sides' error over the whole.
+    let of_part = 3.0 * of_sides / whole.abs() + 2f64.powi(-50);
+    let of_ends = 4.0 * (p.rounding + q.rounding);
+    let error = step.abs() * of_part + p.at[axis].abs() * 2f64.powi(-51) + of_ends;
+    (p.at[axis] + step * (of_p.height / whole), error)
+}
+
+impl FloatPlane {
+    /// n · (p − o), and the sum of the products' magnitudes.
     #[inline]
-    fn side(&self, p: [f64; 3], slack: f64) -> Option<Sign> {
-        let (sum, magnitude) = self.sum(p);
-        if magnitude == 0.0 && slack == 0.0 {
-            return Some(Sign::Zero);
-        }
-        (sum.abs() > magnitude * 2f64.powi(-50) + slack).then(|| sign_of(sum))
+    fn sum(&self, p: [f64; 3]) -> (f64, f64) {
+        let terms: [f64; 3] = std::array::from_fn(|k| self.normal[k] * (p[k] - self.origin[k]));
+        (terms[0] + terms[1] + terms[2], terms[0].abs() + terms[1].abs() + terms[2].abs())
     }
 
     /// A bound on the error of `sum` for a rounded position: it, the origin and a midpoint are off by 2^-12 at most,
@@ -394,6 +423,14 @@ pub(crate) struct Midpoint {
 /// The axis along which a vector is longest, the first of equal ones.
 pub(crate) fn longest_axis(v: [f64; 3]) -> usize {
     (1..3).fold(0, |best, k| if v[k].abs() > v[best].abs() { k } else { best })
+}
+
+/// The sign of a number that is within `error` of x, when it is beyond doubt. Nothing here is a branch, which would be predicted
+/// badly.
+#[inline(always)]
+pub(super) fn sign_within(x: f64, error: f64) -> Option<Sign> {
+    let sign = Sign::from(i8::from(x > error) - i8::from(x < -error));
+    ((sign != Sign::Zero) | (error == 0.0)).then_some(sign)
 }
 
 pub(super) fn sign_of(x: f64) -> Sign {

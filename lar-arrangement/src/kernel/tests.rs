@@ -1,6 +1,7 @@
 //! Every predicate against arbitrary-precision rationals, on random and on degenerate input.
 
 use super::point::{HPointOf, PlaneOf};
+use super::predicates::crossing_near;
 use super::*;
 use dashu_int::{IBig, ops::Abs};
 use std::cmp::Ordering;
@@ -426,7 +427,8 @@ fn definitions_give_the_exact_points_and_round_correctly() {
 /// The quick coordinate of a crossing is as near to the exact one as it says.
 fn check_crossing(geometry: &Geometry, vertex: &Vertex, exact: &Exact, axis: usize, seed: u64) {
     let VertexDef::EdgePlane { ends, support: Support::Facet(facet) } = vertex.def else { return };
-    let (at, error) = geometry.crossing_near(ends, facet, axis);
+    let (plane, [p, q]) = (geometry.seen_from(facet), ends.map(|p| geometry.spot(p)));
+    let (at, error) = crossing_near([&p, &q], [&plane.side(&p), &plane.side(&q)], axis);
     if error.is_finite() {
         let gap = (scaled_float(at) * &exact.w - (&exact.x[axis] << 400)).abs();
         assert!(gap <= scaled_float(error) * &exact.w, "seed {seed}: {at} ± {error}, {:?}", vertex.def);
