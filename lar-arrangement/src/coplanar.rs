@@ -18,6 +18,8 @@ pub(crate) struct Overlay {
 #[derive(Default)]
 struct Facet {
     id: u32,
+    /// The axis along which it is seen.
+    axis: usize,
     edges: Vec<Edge>,
     /// On which side of its edges the facet lies as it is seen.
     inner: Option<Sign>,
@@ -59,6 +61,10 @@ impl Overlay {
     /// which one has the other beyond an edge.
     fn look(&mut self, soup: &Soup, pair: [u32; 2]) -> bool {
         (self.axis, _) = soup.geometry.dominant_axis(pair[0]);
+        // One facet after the other is in many pairs, first or second.
+        if self.facets[0].id == pair[1] || self.facets[1].id == pair[0] {
+            self.facets.swap(0, 1);
+        }
         for (facet, id) in self.facets.iter_mut().zip(pair) {
             facet.read(soup, id, self.axis);
         }
@@ -104,9 +110,13 @@ impl Overlay {
 }
 
 impl Facet {
+    /// O(its edges); nothing to do for the facet that is there.
     fn read(&mut self, soup: &Soup, id: u32, axis: usize) {
+        if (self.id, self.axis) == (id, axis) && !self.edges.is_empty() {
+            return;
+        }
         let edges = &soup.facet_edges[id as usize];
-        self.id = id;
+        (self.id, self.axis) = (id, axis);
         self.edges.clear();
         self.edges.extend(edges.iter().enumerate().map(|(i, &edge)| {
             let start = soup.geometry.seen_along(soup.directed(edge)[0], axis);

@@ -183,9 +183,12 @@ struct Outline {
 }
 
 impl Outline {
-    /// O(its edges), of which there are at most 64.
+    /// O(its edges), of which there are at most 64; nothing to do for the facet that is there.
     fn read(&mut self, soup: &Soup, facet: u32) {
         let geometry = &soup.geometry;
+        if self.facet == facet && !self.corners.is_empty() {
+            return;
+        }
         self.facet = facet;
         self.corners.clear();
         match &soup.facet_edges[facet as usize] {
@@ -255,6 +258,10 @@ pub(crate) struct Scratch {
 
 /// Finds what facets f and g have in common.
 pub(crate) fn meet(soup: &Soup, f: u32, g: u32, scratch: &mut Scratch, out: &mut Contacts) {
+    // One facet after the other is in many pairs, first or second.
+    if scratch.outlines[0].facet == g || scratch.outlines[1].facet == f {
+        scratch.outlines.swap(0, 1);
+    }
     let [of_f, of_g] = &mut scratch.outlines;
     of_f.read(soup, f);
     let position = of_f.classify(soup, g);

@@ -3,7 +3,6 @@
 use super::fit::Fit;
 use super::scan::{Scan, Shape};
 use super::{Input, Tolerance};
-use crate::counting::sorted_by_place;
 use crate::kernel::{Geometry, Plane};
 use crate::parallel;
 use crate::soup::Soup;
@@ -36,7 +35,7 @@ pub(super) struct Cluster {
 
 impl Cluster {
     /// Its corners and those that touch it.
-    pub(super) fn all_corners(&self) -> impl Iterator<Item = u32> + '_ {
+    pub(super) fn all_corners(&self) -> impl Iterator<Item = u32> + Clone + '_ {
         self.corners.iter().chain(&self.touching).copied()
     }
 }
@@ -254,7 +253,7 @@ impl Search<'_> {
         clusters.iter().flat_map(|c| &c.corners).for_each(|&p| is_corner[p as usize] = true);
         let facets = 0..self.input.soup.n_facets() as u32;
         let entries = facets.flat_map(|f| self.input.corners(f).map(move |p| (p, f)));
-        lists(n_points, &entries.filter(|(p, _)| is_corner[*p as usize]).collect::<Vec<_>>())
+        lists(n_points, entries.filter(|(p, _)| is_corner[*p as usize]))
     }
 }
 
@@ -272,13 +271,24 @@ pub(super) fn planes_of_faces(soup: &Soup, clusters: &[Cluster]) -> Vec<Vec<Opti
     planes
 }
 
-/// A list for each of 0..n, of entries (whose list, item) in their order.
-pub(super) fn lists(n: usize, entries: &[(u32, u32)]) -> Cells {
-    let (offsets, sorted) = sorted_by_place(n, entries, |entry| entry.0 as usize);
-    Cells::from_parts(offsets, sorted.into_iter().map(|entry| entry.1).collect())
+/// A list for each of 0..n, of entries (whose list, item) in their order. These are gone through twice.
+pub(super) fn lists(n: usize, entries: impl Iterator<Item = (u32, u32)> + Clone) -> Cells {
+    let mut offsets = vec![0u32; n + 1];
+    entries.clone().for_each(|(list, _)| offsets[list as usize + 1] += 1);
+    for list in 1..offsets.len() {
+        offsets[list] += offsets[list - 1];
+    }
+    let mut items = vec![0; offsets[n] as usize];
+    let mut fill = offsets.clone();
+    for (list, item) in entries {
+        let at = &mut fill[list as usize];
+        items[*at as usize] = item;
+        *at += 1;
+    }
+    Cells::from_parts(offsets, items)
 }
 
 /// The partners of each of 0..n.
 fn partners(n: usize, pairs: &[[u32; 2]]) -> Cells {
-    lists(n, &pairs.iter().flat_map(|&[a, b]| [(a, b), (b, a)]).collect::<Vec<_>>())
+    lists(n, pairs.iter().flat_map(|&[a, b]| [(a, b), (b, a)]))
 }

@@ -34,6 +34,7 @@ fn pairs(points: &[u32], at: impl Fn(u32) -> [i64; 3], limit: impl Fn(u32) -> i6
         let members: Vec<u32> = points.iter().copied().filter(|&p| class(limit(p)) <= of).collect();
         // The last member in a cell, and the one before each.
         let mut last: FxHashMap<[i64; 3], u32> = FxHashMap::default();
+        last.reserve(members.len());
         let mut before: Vec<Option<u32>> = Vec::with_capacity(members.len());
         for (&p, i) in members.iter().zip(0..) {
             cells.around(at(p), |cell| {
@@ -70,8 +71,10 @@ fn in_question(input: &Input) -> Vec<u32> {
         });
         may_be_near.iter().flat_map(|&pair| input.pairs[pair as usize]).for_each(&mut see);
     } else {
-        // Each point is in many pairs.
-        input.pairs.as_flattened().iter().for_each(|&facet| see(facet));
+        // Each point, and each facet, is in many pairs.
+        let mut is_seen = vec![false; input.soup.n_facets()];
+        let facets = input.pairs.as_flattened().iter().copied();
+        facets.filter(|&f| !std::mem::replace(&mut is_seen[f as usize], true)).for_each(&mut see);
     }
     input.charts.without.iter().copied().filter(|&f| !input.has_corners_apart(f)).for_each(see);
     points

@@ -74,7 +74,7 @@ pub(super) fn registered(clusters: Vec<Cluster>, n_points: usize) -> Vec<Cluster
 fn clusters_at_points(clusters: &[Cluster], n_points: usize) -> Cells {
     let entries =
         clusters.iter().zip(0..).flat_map(|(cluster, id)| cluster.all_corners().map(move |p| (p, id)));
-    lists(n_points, &entries.collect::<Vec<_>>())
+    lists(n_points, entries)
 }
 
 /// A place of a point.

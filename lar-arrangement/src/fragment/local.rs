@@ -7,7 +7,6 @@ use crate::interner::Interner;
 use crate::kernel::{Direction, Geometry, Sign, Support, Vertex};
 use crate::progress::Cancelled;
 use crate::subdivision::{self, Embedding, Subdivision};
-use lar_core::Cells;
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 use std::mem::take;
@@ -43,6 +42,22 @@ struct Use {
 
 /// A boundary piece, by whom it is used, and the input edge that it is part of.
 type Used = (Piece, Use, u32);
+
+/// A member, and how often its boundary winds around a face.
+type Count = (u32, i32);
+
+/// How often the members wind around each face, without those that do not.
+struct Windings {
+    counts: Vec<Count>,
+    /// Where the counts of each face begin and end; those of a face ascend.
+    of_face: Vec<Option<(usize, usize)>>,
+}
+
+impl Windings {
+    fn of(&self, face: usize) -> &[Count] {
+        self.of_face[face].map_or(&[], |(begin, end)| &self.counts[begin..end])
+    }
+}
 
 /// The lists of one group after the other, in the same memory.
 #[derive(Debug, Default)]
@@ -407,31 +422,22 @@ impl<'a> Local<'a> {
     }
 
     /// For each face the members that contain it, by walking from the outside across the boundary pieces.
-    fn windings(&self, subdivision: &Subdivision) -> Cells {
-        let n = subdivision.n_faces();
-        let mut around: Vec<Vec<u32>> = vec![Vec::new(); n];
-        for h in 0..2 * self.pieces.len() as u32 {
-            around[subdivision.face(h) as usize].push(h);
-        }
-        let mut counts: Vec<Option<Vec<(u32, i32)>>> = vec![None; n];
-        counts[0] = Some(Vec::new());
+    fn windings(&self, subdivision: &Subdivision) -> Windings {
+        let mut out = Windings { counts: Vec::new(), of_face: vec![None; subdivision.n_faces()] };
+        out.of_face[0] = Some((0, 0));
         let mut stack = vec![0u32];
         while let Some(face) = stack.pop() {
-            for &h in &around[face as usize] {
-                let beyond = subdivision.face(h ^ 1) as usize;
-                if counts[beyond].is_none() {
-                    let here =
-                        counts[face as usize].as_ref().expect("faces are counted before they are stacked");
-                    counts[beyond] = Some(self.across(here, h ^ 1));
-                    stack.push(beyond as u32);
+            let here = out.of_face[face as usize].expect("faces are counted before they are stacked");
+            let cycles = subdivision.cycles_of_face[face as usize].iter();
+            for &h in cycles.flat_map(|&cycle| subdivision.cycle(cycle)) {
+                let beyond = subdivision.face(h ^ 1);
+                if out.of_face[beyond as usize].is_none() {
+                    out.of_face[beyond as usize] = Some(self.across(&mut out.counts, here, h ^ 1));
+                    stack.push(beyond);
                 }
             }
         }
-        let mut members = Cells::new();
-        for counted in counts {
-            members.push(&counted.iter().flatten().map(|(member, _)| *member).collect::<Vec<_>>());
-        }
-        members
+        out
     }
 
     fn is_one_triangle(&self) -> bool {
@@ -449,22 +455,23 @@ impl<'a> Local<'a> {
         }
     }
 
-    /// The counts on the left of half-edge h, from those on its right.
-    fn across(&self, right: &[(u32, i32)], h: u32) -> Vec<(u32, i32)> {
-        let mut left = right.to_vec();
+    /// Adds the counts on the left of half-edge h, from those on its right; returns where they are.
+    fn across(&self, counts: &mut Vec<Count>, right: (usize, usize), h: u32) -> (usize, usize) {
+        let begin = counts.len();
+        counts.extend_from_within(right.0..right.1);
         let along = if h.is_multiple_of(2) { 1 } else { -1 };
         for used in self.uses_of(h / 2) {
             let same_way = self.geometry().same_way(self.group[0], self.group[used.member as usize]);
             let change = i32::from(used.sign) * along * if same_way { 1 } else { -1 };
-            match left.binary_search_by_key(&used.member, |c| c.0) {
-                Ok(at) if left[at].1 + change == 0 => {
-                    left.remove(at);
+            match counts[begin..].binary_search_by_key(&used.member, |c| c.0) {
+                Ok(at) if counts[begin + at].1 + change == 0 => {
+                    counts.remove(begin + at);
                 }
-                Ok(at) => left[at].1 += change,
-                Err(at) => left.insert(at, (used.member, change)),
+                Ok(at) => counts[begin + at].1 += change,
+                Err(at) => counts.insert(begin + at, (used.member, change)),
             }
         }
-        left
+        (begin, counts.len())
     }
 
     /// Writes the faces inside at least one member.
@@ -481,8 +488,8 @@ impl<'a> Local<'a> {
         let first_piece = out.pieces.len() as u32;
         out.pieces.extend(self.pieces.iter().map(|p| Piece { ends: p.ends.map(global), ..*p }));
         for face in 1..subdivision.n_faces() {
-            let members = windings.as_ref().map_or(&[0][..], |windings| &windings[face]);
-            let Some(&first) = members.first() else { continue };
+            let members = windings.as_ref().map_or(&[(0, 1)][..], |windings| windings.of(face));
+            let Some(&(first, _)) = members.first() else { continue };
             let first = self.group[first as usize];
             let turned = !self.geometry().same_way(self.group[0], first);
             for &cycle in &subdivision.cycles_of_face[face] {
@@ -494,7 +501,7 @@ impl<'a> Local<'a> {
                 }
                 out.close_loop();
             }
-            out.close_face(members.iter().map(|&m| {
+            out.close_face(members.iter().map(|&(m, _)| {
                 let facet = self.group[m as usize];
                 FacetParent { facet, same_way: self.geometry().same_way(first, facet) }
             }));
