@@ -273,11 +273,7 @@ pub(super) fn planes_of_faces(soup: &Soup, clusters: &[Cluster]) -> Vec<Vec<Opti
 
 /// A list for each of 0..n, of entries (whose list, item) in their order. These are gone through twice.
 pub(super) fn lists(n: usize, entries: impl Iterator<Item = (u32, u32)> + Clone) -> Cells {
-    let mut offsets = vec![0u32; n + 1];
-    entries.clone().for_each(|(list, _)| offsets[list as usize + 1] += 1);
-    for list in 1..offsets.len() {
-        offsets[list] += offsets[list - 1];
-    }
+    let offsets = offsets(n, entries.clone().map(|(list, _)| list));
     let mut items = vec![0; offsets[n] as usize];
     let mut fill = offsets.clone();
     for (list, item) in entries {
