@@ -1,7 +1,7 @@
 //! Stage 1b: one input polygon on the grid → facets that are exactly planar.
 //!
-//! A triangle is a facet. A larger polygon is kept whole when its corners are exactly coplanar and its loops are
-//! simple; otherwise it is triangulated with diagonals inside. What decides is exact. Only the choice of three
+//! A triangle is a facet. A larger polygon is kept whole when its corners are exactly coplanar, its loops are simple and
+//! all but the first are holes of it; otherwise it is triangulated with diagonals inside. What decides is exact. Only the choice of three
 //! corners and of diagonals looks at the nearest grid points instead of rational corners: any choice is right.
 
 use crate::kernel::{Geometry, Plane, Sign, dominant_axis};
@@ -59,6 +59,7 @@ impl Polygon<'_> {
             && area.unsigned_abs() > self.area_slack(axis)
             && self.corners().count() <= MAX_CORNERS
             && self.is_simple(axis)
+            && self.is_one_region(axis, area > 0)
         {
             let agrees = (area > 0) == (plane.n[axis] > 0);
             return Shape::Planar { base: if agrees { base } else { [a, c, b] }, positive: area > 0 };
@@ -144,6 +145,42 @@ impl Polygon<'_> {
                 .iter()
                 .enumerate()
                 .all(|(i, &e)| edges[i + 1..].iter().all(|&f| !self.edges_meet(e, f, axis)))
+    }
+
+    /// Whether loops that do not meet bound one region: the first turns as it should, and the others are holes in it,
+    /// side by side. At most 64 corners.
+    fn is_one_region(&self, axis: usize, positive: bool) -> bool {
+        let [outer, holes @ ..] = self.loops else { return false };
+        let is_hole = |i: usize| {
+            let inside = |cycle: &[u32]| self.is_inside(holes[i][0], cycle, axis);
+            self.turns_left(holes[i], axis) != positive
+                && inside(outer)
+                && (0..holes.len()).all(|j| i == j || !inside(holes[j]))
+        };
+        holes.is_empty() || self.turns_left(outer, axis) == positive && (0..holes.len()).all(is_hole)
+    }
+
+    /// Whether a simple loop turns counter-clockwise in the projection: as it does at its least corner.
+    fn turns_left(&self, cycle: &[u32], axis: usize) -> bool {
+        let order = |p, q, k| self.geometry.cmp_points(p, q, (axis + k) % 3);
+        let before =
+            |&i: &usize, &j: &usize| order(cycle[i], cycle[j], 1).then_with(|| order(cycle[i], cycle[j], 2));
+        let n = cycle.len();
+        let least = (0..n).min_by(before).expect("loops have corners");
+        let [previous, next] = [cycle[(least + n - 1) % n], cycle[(least + 1) % n]];
+        self.geometry.turn_to([previous, cycle[least]], next, axis) == Sign::Positive
+    }
+
+    /// Whether a point that is not on a simple loop lies inside it, in the projection: an odd number of its edges
+    /// is met by the ray from the point along the first of the other two axes.
+    fn is_inside(&self, p: u32, cycle: &[u32], axis: usize) -> bool {
+        let is_above = |q: u32| self.geometry.cmp_points(q, p, (axis + 2) % 3).is_gt();
+        let meets = |&i: &usize| {
+            let [a, b] = [cycle[i], cycle[(i + 1) % cycle.len()]];
+            let left = if is_above(b) { Sign::Positive } else { Sign::Negative };
+            is_above(a) != is_above(b) && self.geometry.turn_to([a, b], p, axis) == left
+        };
+        (0..cycle.len()).filter(meets).count() % 2 == 1
     }
 
     /// Whether two edges share a point other than a common end.

@@ -694,11 +694,16 @@ fn without_repetition(cycle: impl Iterator<Item = u32>) -> Vec<u32> {
     out
 }
 
-/// A key that is equal for polygons with the same loops, wherever these start and whichever way they turn.
+/// A key that is equal for polygons with the same loops or their opposites, wherever these start.
 fn canonical(loops: &[Vec<u32>]) -> Vec<u32> {
-    let mut keys: Vec<Vec<u32>> = loops.iter().map(|l| canonical_cycle(l)).collect();
+    let key = |l: &Vec<u32>| {
+        let mut key = canonical_cycle(l);
+        key.extend([u32::MAX, u32::from(is_reversed(l) == is_reversed(&loops[0]))]);
+        key
+    };
+    let mut keys: Vec<Vec<u32>> = loops.iter().map(key).collect();
     keys[1..].sort_unstable();
-    keys.join(&u32::MAX)
+    keys.concat()
 }
 
 /// The cycle from its smallest entry towards the smaller of that entry's neighbours.

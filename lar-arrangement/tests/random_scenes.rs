@@ -10,6 +10,7 @@ use common::{
 };
 use lar_arrangement::{Arrangement, Arranger, Checks, Detail, Expression, FillRule, Merge, operand_names};
 use lar_core::{CellId, FaceId, Points, Struct, Surface, cuboid_grid, r, rotation, s, t, triangular_prism};
+use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 use std::num::NonZeroUsize;
 
@@ -156,7 +157,7 @@ fn bent_scribble(random: &mut Random) -> Surface {
 /// Nearly planar polygons that cross themselves fold when they are cut into triangles.
 #[test]
 fn bent_scribbles_keep_every_law() {
-    let found = [10_438, 579_238];
+    let found = [10_438, 579_238, 140_068_273];
     each_of(found, 200, |seed| {
         let random = &mut Random(seed);
         let mut input: Vec<Surface> = (0..1 + random.below(3)).map(|_| bent_scribble(random)).collect();
@@ -175,6 +176,68 @@ fn bent_scribbles_keep_every_law() {
                 assert_eq!(out.complex.validate(), [], "{detail:?}");
             }
         }
+    });
+}
+
+/// Blocks on one plane, each on either side and counted with either sign, as one solid; their faces in the plane are one face
+/// of many loops, in any order and whichever way they turn, or one face each.
+fn blocks_on_a_plane(random: &mut Random) -> [Surface; 2] {
+    let (mut joined, mut apart) = (surface(&[], &[]), surface(&[], &[]));
+    let (mut points, mut loops) = (Vec::new(), Vec::new());
+    for _ in 0..2 + random.below(3) {
+        let (lo, size) = (corner(random, 5), corner(random, 4));
+        let (above, inwards) = (random.below(2) == 0, random.below(3) == 0);
+        let z = if above { [2.0, 3.0 + size[2]] } else { [1.0 - size[2], 2.0] };
+        let first = points.len() as u32;
+        points.extend((0..8).map(|i| {
+            let at = |k: usize| lo[k] + f64::from(u32::from(i >> k & 1 == 1)) * (size[k] + 1.0);
+            [at(0), at(1), z[i >> 2]]
+        }));
+        let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        for (i, side) in sides.into_iter().enumerate() {
+            let mut cycle = side.map(|v: u32| first + v);
+            if inwards {
+                cycle.reverse();
+            }
+            apart.push_face([&cycle[..]], 1);
+            if i == usize::from(!above) {
+                loops.push(cycle);
+            } else {
+                joined.push_face([&cycle[..]], 1);
+            }
+        }
+    }
+    joined.push_face(loops.iter().map(|l| &l[..]), 1);
+    (joined.points, apart.points) = (Points::from_xyz(&points), Points::from_xyz(&points));
+    [joined, apart]
+}
+
+/// A face is the sum of its loops, also where they cross, touch, lie outside of each other or turn the wrong way.
+#[test]
+fn faces_are_the_sums_of_their_loops() {
+    each_seed(60, |seed| {
+        let random = &mut Random(seed);
+        let [joined, apart] = blocks_on_a_plane(random);
+        let others: Vec<Surface> = (0..1 + random.below(2)).map(|_| block(random)).collect();
+        let turned = random.below(2) == 0;
+        let turn = rotation([0; 3].map(|_| random.between(-1.0, 1.0)), 1.0).expect("an axis");
+        let first = random.below(2) == 0;
+        let volumes = |solid: &Surface| {
+            let mut input = others.clone();
+            input.insert(if first { 0 } else { others.len() }, solid.clone());
+            let a = arranged(&if turned { common::moved(&input, &turn) } else { input });
+            let mut out: BTreeMap<Vec<i32>, f64> = BTreeMap::new();
+            for (cell, volume) in (0u32..).map(CellId).zip(a.volumes()).skip(1) {
+                let windings = (0..a.n_solids()).map(|s| a.winding(cell, s)).collect();
+                *out.entry(windings).or_default() += volume;
+            }
+            out.retain(|windings, _| windings.iter().any(|&w| w != 0));
+            out
+        };
+        let (one, many) = (volumes(&joined), volumes(&apart));
+        assert_eq!(one.keys().collect::<Vec<_>>(), many.keys().collect::<Vec<_>>());
+        let values = |v: &BTreeMap<Vec<i32>, f64>| v.values().copied().collect::<Vec<f64>>();
+        assert_close(&values(&one), &values(&many), ROUNDING, "volumes");
     });
 }
 
