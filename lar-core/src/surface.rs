@@ -4,7 +4,9 @@ use crate::{Affine, AffineError, Cells, Points, Precision, TriangleMesh};
 
 /// Polygonal faces in 3-space. A face is one outer loop and any number of hole loops, each a cyclic list of
 /// vertices; seen from the tip of its normal the outer loop turns counter-clockwise, holes clockwise.
-/// Faces may cross each other, repeat, touch, leave the surface open.
+/// Faces may cross each other, repeat, touch, leave the surface open. A face stands for the sum of its loops: one that is
+/// no hole of the first (it crosses it, lies outside, turns the same way) counts where it turns counter-clockwise as one
+/// more layer, clockwise as one less.
 ///
 /// `loops[l]` lists the vertices of loop l; `face_loops[f]..face_loops[f + 1]` are the loops of face f, the
 /// outer one first. `coefficients[f]` is the face's coefficient (−1, 0, +1, …) in the boundary of the solid
