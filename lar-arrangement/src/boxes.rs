@@ -1,6 +1,6 @@
 //! Broad phase: a tree of boxes over points in Z-order, eight children a node, built in bulk.
 
-use crate::counting::sorted_by_place;
+use crate::counting::{sorted_by_place, sorted_numbers};
 use crate::curve::{Curve, hull};
 use crate::parallel;
 use crate::progress::{Cancelled, Course};
@@ -173,6 +173,8 @@ pub(crate) struct BoxTree<const D: usize = 3> {
     groups: Vec<Vec<u32>>,
     /// The place of each item along the curve; empty when that is the order of the leaves.
     ranks: Vec<u32>,
+    /// The item at each place along the curve, when that is not the order of the leaves.
+    along: Vec<u32>,
 }
 
 /// The order of boxes along a curve through another one, and the boxes in 32 bits.
@@ -242,7 +244,9 @@ impl<const D: usize> BoxTree<D> {
         let (items, near) = along_curve(all, n, box_of);
         let (layout, ranks) = side_by_side(&items, &group_of);
         let mut tree = Self::of_near(layout, |i| near[i as usize]).with_groups(group_of);
-        tree.ranks = ranks;
+        if !ranks.is_empty() {
+            (tree.ranks, tree.along) = (ranks, items);
+        }
         tree
     }
 
@@ -262,7 +266,7 @@ impl<const D: usize> BoxTree<D> {
             });
             blocks.push(level);
         }
-        Self { items, blocks, groups: Vec::new(), ranks: Vec::new() }
+        Self { items, blocks, groups: Vec::new(), ranks: Vec::new(), along: Vec::new() }
     }
 
     /// The tree with some items in groups: pairs of one group need not be visited, and whole subtrees of them are
@@ -452,12 +456,16 @@ impl<const D: usize> BoxTree<D> {
             return Ok(pairs);
         }
         // The order along the curve: what is found of groups, and which items are there besides, shows in no result.
-        let mut keyed = parallel::map_light(pairs.len(), |i| {
+        let bits = usize::BITS - self.along.len().leading_zeros();
+        let numbers = parallel::map_light(pairs.len(), |i| {
             let [a, b] = pairs[i].map(|item| u64::from(self.ranks[item as usize]));
-            (a.min(b) << 32 | a.max(b), pairs[i])
+            a.min(b) << bits | a.max(b)
         });
-        parallel::sort_distinct_by(&mut keyed, |a, b| a.0.cmp(&b.0));
-        Ok(parallel::map_light(keyed.len(), |i| keyed[i].1))
+        let sorted = sorted_numbers(&numbers, 2 * bits, |_| ());
+        Ok(parallel::map_light(sorted.len(), |i| {
+            let [a, b] = [sorted[i] >> bits, sorted[i] & ((1 << bits) - 1)].map(|at| self.along[at as usize]);
+            [a.min(b), a.max(b)]
+        }))
     }
 
     /// The pairs of two blocks, or of one, as leaves; `off` are those of each, as bits, that need not be looked at.

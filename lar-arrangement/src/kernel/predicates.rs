@@ -134,10 +134,21 @@ impl Geometry {
     /// Whether two vertices are the same point.
     pub(crate) fn coincide(&self, a: &Vertex, b: &Vertex) -> bool {
         a.at == b.at
-            && (a.def == b.def || {
-                self.counters.count();
-                self.exact_equality(&a.def, &b.def)
-            })
+            && (a.def == b.def
+                || self.coincide_by_definition([&a.def, &b.def]).unwrap_or_else(|| {
+                    self.counters.count();
+                    self.exact_equality(&a.def, &b.def)
+                }))
+    }
+
+    /// Whether two vertices are the same point, where their definitions [give](Self::coordinate) the coordinates.
+    fn coincide_by_definition(&self, defs: [&VertexDef; 2]) -> Option<bool> {
+        for axis in 0..3 {
+            if self.cmp_coordinate_by_definition(defs, axis)?.is_ne() {
+                return Some(false);
+            }
+        }
+        Some(true)
     }
 
     /// A direction with its approximation.

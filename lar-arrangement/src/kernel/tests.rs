@@ -405,7 +405,7 @@ fn on_scenes(n: u64, mut test: impl FnMut(&Scene, u64) -> usize) -> usize {
 
 #[test]
 fn definitions_give_the_exact_points_and_round_correctly() {
-    let mut n_on_planes = 0;
+    let (mut n_on_planes, mut n_short) = (0, 0);
     let compared = on_scenes(50_000, |scene, seed| {
         for (vertex, exact) in &scene.vertices {
             let found = scene.geometry.exact_point::<23>(&vertex.def);
@@ -415,13 +415,24 @@ fn definitions_give_the_exact_points_and_round_correctly() {
                 assert_eq!(x * &exact.w, &exact.x[k] * &w, "seed {seed}: {:?}, axis {k}", vertex.def);
                 check_rounding(&exact.x[k], &exact.w, vertex.at[k], seed);
                 check_crossing(&scene.geometry, vertex, exact, k, seed);
+                n_short += check_coordinate(&scene.geometry, vertex, exact, k, seed);
             }
             n_on_planes += usize::from(vertex.is_on_edge && matches!(vertex.def, VertexDef::Facets(_)));
         }
         scene.vertices.len()
     });
     assert!(n_on_planes > 5_000, "only {n_on_planes} vertices on edges are defined by canonical planes");
+    assert!(n_short > 30_000, "only {n_short} coordinates are short quotients");
     assert!(compared > 500_000, "only {compared} vertices");
+}
+
+/// A coordinate that the definition gives is the exact one, and as short as it says. How many there are of edges: 0 or 1.
+fn check_coordinate(geometry: &Geometry, vertex: &Vertex, exact: &Exact, axis: usize, seed: u64) -> usize {
+    let Some([x, w]) = geometry.coordinate(&vertex.def, axis) else { return 0 };
+    assert!(0 < w && w < 1 << 42 && x.abs() < 1 << 83, "seed {seed}: {x} / {w}, {:?}", vertex.def);
+    let (left, right) = (IBig::from(x) * &exact.w, &exact.x[axis] * IBig::from(w));
+    assert_eq!(left, right, "seed {seed}: {x} / {w}, {:?}, axis {axis}", vertex.def);
+    usize::from(matches!(vertex.def, VertexDef::EdgePlane { .. }))
 }
 
 /// The quick coordinate of a crossing is as near to the exact one as it says.
