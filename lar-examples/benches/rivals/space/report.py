@@ -7,6 +7,8 @@ import harness
 RIVALS = ["trueform", "manifold3d", "meshlib", "manifold-rust", "boolmesh"]
 # Families whose members differ in size only.
 GROWTH = {"spheres": ["5k", "20k", "80k", "320k", "1M"], "scattered": ["10k", "100k", "1M"]}
+# Two threads are to be worth while for more triangles than this.
+LARGE = 100_000
 # General position, and the same number of operands in common planes.
 GENERAL, ALIGNED, TURNED = "cubes-100", ["shifted-128", "coplanar-128"], ["turned-128"]
 
@@ -72,14 +74,24 @@ def cells(rows):
     )  # fmt: skip
 
 
+def halved(row, operation):
+    one, two = row[f"{operation} 1"]["lar"], row[f"{operation} 2"]["lar"]
+    return milliseconds(one, "wall"), milliseconds(two, "wall"), f"{one['wall'] / two['wall']:.2f}"
+
+
+def copies(row):
+    """How many times as much two processes get done at once as one does alone."""
+    both = row.get("copies", {}).get("two copies")
+    return f"{2 * row['copies']['lar']['wall'] / both['wall']:.2f}" if times(both) else "–"
+
+
 def threads(rows):
     yield from table(
-        ["workload", "cells, 1 thread", "2 threads", "ratio", "Boolean, 1 thread", "2 threads", "ratio",
+        ["workload", "cells, 1 thread", "2 threads", "ratio", "two copies", "Boolean, 1 thread", "2 threads", "ratio",
          "fastest other, 2 threads", "lar ÷ fastest"],
         (
             [name,
-             *(x for op in ("cells", "boolean") for one, two in [(row[f"{op} 1"]["lar"], row[f"{op} 2"]["lar"])]
-               for x in (milliseconds(one, "wall"), milliseconds(two, "wall"), f"{one['wall'] / two['wall']:.2f}")),
+             *halved(row, "cells"), copies(row), *halved(row, "boolean"),
              f"{milliseconds(row['boolean 2'][best], 'wall')} ({best})" if best else "–",
              f"{row['boolean 2']['lar']['wall'] / row['boolean 2'][best]['wall']:.2f}" if best else "–"]
             for name, row in rows.items() if "cells 2" in row
@@ -157,7 +169,7 @@ def targets(rows):
 
     def halves():
         for w, row in rows.items():
-            if "cells 2" in row and row["cells 1"]["lar"]["facets"] > 100_000:
+            if "cells 2" in row and row["cells 1"]["lar"]["facets"] > LARGE:
                 one, two = row["cells 1"]["lar"], row["cells 2"]["lar"]
                 yield two["wall"] / one["wall"], f"{w}: {one['wall'] / two['wall']:.2f} times as fast"
 
@@ -225,7 +237,8 @@ cell.
 
 ### Two threads
 
-Wall time.
+Wall time. *Two copies*: how many times as much two processes of one thread each get done at once as one of them alone. More than
+that no two threads can get out of the machine.
 
 {text(threads(rows))}
 
