@@ -215,7 +215,7 @@ fn blocks_on_a_plane(random: &mut Random) -> [Surface; 2] {
 /// A face is the sum of its loops, also where they cross, touch, lie outside of each other or turn the wrong way.
 #[test]
 fn faces_are_the_sums_of_their_loops() {
-    each_seed(60, |seed| {
+    each_of([150_110_035], 60, |seed| {
         let random = &mut Random(seed);
         let [joined, apart] = blocks_on_a_plane(random);
         let others: Vec<Surface> = (0..1 + random.below(2)).map(|_| block(random)).collect();
@@ -231,7 +231,8 @@ fn faces_are_the_sums_of_their_loops() {
                 let windings = (0..a.n_solids()).map(|s| a.winding(cell, s)).collect();
                 *out.entry(windings).or_default() += volume;
             }
-            out.retain(|windings, _| windings.iter().any(|&w| w != 0));
+            // Turned blocks may leave cells as thin as a step of rounding between them.
+            out.retain(|windings, volume| *volume > ROUNDING && windings.iter().any(|&w| w != 0));
             out
         };
         let (one, many) = (volumes(&joined), volumes(&apart));
