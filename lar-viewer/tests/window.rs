@@ -63,6 +63,14 @@ fn a_complex_is_explored_with_mouse_and_keys() {
 fn a_scene_is_shown_as_it_is() {
     let Some(session) = Session::start(&example("cubes"), "cubes", &[], &[]) else { return };
     session.check_changes("turning", 20_000, |s| s.drag(1, [500, 400], [620, 360]));
+    session.check_changes("turning in one frame, after that of the press", 20_000, |s| {
+        s.xdotool("mousemove 500 400 mousedown 1");
+        s.look();
+        s.at_once(|s| {
+            s.xdotool("mousemove 620 360");
+            s.xdotool("mouseup 1");
+        });
+    });
     session.check_changes("exploding", 20_000, |s| s.drag(1, [1020, 81], [1050, 81]));
     session.xdotool("mousemove 600 500 key Escape");
     session.check_closes();

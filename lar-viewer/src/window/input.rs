@@ -5,16 +5,18 @@ use egui::{Event, Key, Pos2};
 /// Points between the clicks of a double click, at most; egui allows as many between press and release.
 const SAME_PLACE: f32 = 6.0;
 
-/// Keeps the events of one frame and returns those after it.
+/// Keeps the events of one frame and returns those after it; `down` is where a button was pressed in an earlier frame, that is
+/// still down.
 ///
 /// A click puts the cursor into a field or out of it, Esc, Enter and Tab take it out. Within a frame clicks come first,
 /// whatever their order, and panels find out in the middle of it where the cursor is; and all clicks of a frame are one, where the
 /// mouse is at the end. On a slow driver much arrives in the time of a frame. So what is typed has a frame to itself, which
 /// ends with a key that moves the cursor, and so have clicks at different places. A drag begins with a frame, as what the mouse
-/// has moved in it counts, and ends in a later one: pressed and released in one frame it would be a click.
-pub(crate) fn split_off_later(events: &mut Vec<Event>) -> Vec<Event> {
+/// has moved in it counts, and ends in a later one: pressed and released in one frame it would be a click, and what the mouse
+/// moves in the frame that releases it does not count.
+pub(crate) fn split_off_later(events: &mut Vec<Event>, down: Option<Pos2>) -> Vec<Event> {
     let (mut typed, mut left, mut released) = (false, false, None::<(usize, Pos2)>);
-    let (mut moved, mut pressed) = (false, None::<(usize, Pos2)>);
+    let (mut moved, mut pressed) = (false, down.map(|at| (0, at)));
     let is_drag = |from: Option<(usize, Pos2)>, to: Pos2| from.filter(|(_, at)| SAME_PLACE < at.distance(to));
     for (i, event) in events.iter().enumerate() {
         match event {
@@ -25,7 +27,7 @@ pub(crate) fn split_off_later(events: &mut Vec<Event>) -> Vec<Event> {
                 }
                 moved |= pressed.is_none();
             }
-            Event::PointerButton { pos, pressed: false, .. } if is_drag(pressed, *pos).is_some() => {
+            Event::PointerButton { pos, pressed: false, .. } if 0 < i && is_drag(pressed, *pos).is_some() => {
                 return events.split_off(i);
             }
             Event::PointerButton { pos, pressed: true, .. } => {
@@ -86,9 +88,14 @@ mod tests {
     #[track_caller]
     fn check(events: &[[Event; 2]], expected: &[usize]) {
         let all = events.concat();
-        let (mut frames, mut rest) = (Vec::new(), all.clone());
+        let (mut frames, mut rest, mut down) = (Vec::new(), all.clone(), None);
         while !rest.is_empty() {
-            let later = split_off_later(&mut rest);
+            let later = split_off_later(&mut rest, down);
+            for event in &rest {
+                if let Event::PointerButton { pos, pressed, .. } = event {
+                    down = pressed.then_some(*pos);
+                }
+            }
             frames.push(std::mem::replace(&mut rest, later));
         }
         assert_eq!(frames.iter().map(Vec::len).collect::<Vec<_>>(), expected);
@@ -124,5 +131,24 @@ mod tests {
         let drag = [[press, first], [second, release]];
         check(&drag, &[3, 1]);
         check(&[start, drag[0].clone(), drag[1].clone(), click(30.0)], &[2, 3, 3]);
+    }
+
+    /// A frame may end between press and way.
+    #[test]
+    fn drags_that_began_in_an_earlier_frame_end_in_another() {
+        let down = Some(pos2(1.0, 2.0));
+        let check = |x: f32, down: Option<Pos2>, expected: usize| {
+            let [_, release] = click(x);
+            let mut events = vec![
+                Event::PointerMoved(pos2(0.5 * x, 2.0)),
+                Event::PointerMoved(pos2(x, 2.0)),
+                release.clone(),
+            ];
+            assert_eq!(split_off_later(&mut events, down).len(), expected, "to {x}");
+            assert_eq!(split_off_later(&mut vec![release], down), [], "a frame has an event");
+        };
+        check(30.0, down, 1);
+        check(2.0, down, 0);
+        check(30.0, None, 0);
     }
 }

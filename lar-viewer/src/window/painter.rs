@@ -105,8 +105,9 @@ impl Painter {
             return Ok(After { close: false, load: Vec::new(), repaint_in: None });
         }
         let mut input = self.input();
-        let later = split_off_later(&mut input.events);
         let context = self.egui.egui_ctx().clone();
+        let down = context.input(|i| i.pointer.press_origin());
+        let later = split_off_later(&mut input.events, down);
         let mut asked = None;
         let mut output = context.run_ui(input, |ui| asked = Some(self.controls.show(ui, self.shown)));
         let unused = self.update_textures(&mut output.textures_delta);
