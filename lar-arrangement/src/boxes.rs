@@ -171,10 +171,34 @@ pub(crate) struct BoxTree<const D: usize = 3> {
     blocks: Vec<Vec<Block<D>>>,
     /// The group that everything under a node belongs to, or `NO_GROUP`; empty when there are no groups.
     groups: Vec<Vec<u32>>,
-    /// The place of each item along the curve; empty when that is the order of the leaves.
+    /// The order along the curve, when it is not that of the leaves.
+    order: Option<CurveOrder>,
+}
+
+/// The order of items along a curve.
+#[derive(Debug)]
+struct CurveOrder {
+    /// The place of each item.
     ranks: Vec<u32>,
-    /// The item at each place along the curve, when that is not the order of the leaves.
-    along: Vec<u32>,
+    /// The item at each place.
+    items: Vec<u32>,
+}
+
+impl CurveOrder {
+    /// Pairs of items in the order of their first one, then the other; each with the smaller item first.
+    fn sorted(&self, pairs: &[[u32; 2]]) -> Vec<[u32; 2]> {
+        let bits = usize::BITS - self.items.len().leading_zeros();
+        let numbers = parallel::map_light(pairs.len(), |i| {
+            let [a, b] = pairs[i].map(|item| u64::from(self.ranks[item as usize]));
+            a.min(b) << bits | a.max(b)
+        });
+        let sorted = sorted_numbers(&numbers, 2 * bits, |_| ());
+        parallel::map_light(sorted.len(), |i| {
+            let places = [sorted[i] >> bits, sorted[i] & ((1 << bits) - 1)];
+            let [a, b] = places.map(|place| self.items[place as usize]);
+            [a.min(b), a.max(b)]
+        })
+    }
 }
 
 /// The order of boxes along a curve through another one, and the boxes in 32 bits.
@@ -191,12 +215,15 @@ fn along_curve<const D: usize>(
     (curve.sorted(&upper, box_of), near)
 }
 
-/// Items in the given order, but each group where its first item is, and the places that they had, by item; the
-/// latter empty when there are no groups. O(n).
-fn side_by_side(items: &[u32], group_of: impl Fn(u32) -> u32 + Sync + Send) -> (Vec<u32>, Vec<u32>) {
+/// Items in the given order, but each group where its first item is, and the order that they had; none when there are no
+/// groups. O(n).
+fn side_by_side(
+    items: Vec<u32>,
+    group_of: impl Fn(u32) -> u32 + Sync + Send,
+) -> (Vec<u32>, Option<CurveOrder>) {
     let groups = parallel::map_light(items.len(), |i| group_of(items[i]));
     let Some(&last) = groups.iter().filter(|&&group| group != NO_GROUP).max() else {
-        return (items.to_vec(), Vec::new());
+        return (items, None);
     };
     let ranks = || {
         let mut ranks = vec![0; items.len()];
@@ -216,7 +243,8 @@ fn side_by_side(items: &[u32], group_of: impl Fn(u32) -> u32 + Sync + Send) -> (
         let (_, sorted) = sorted_by_place(n as usize, &placed, |placed| placed.0 as usize);
         parallel::map_light(sorted.len(), |i| sorted[i].1)
     };
-    parallel::join(layout, ranks)
+    let (layout, ranks) = parallel::join(layout, ranks);
+    (layout, Some(CurveOrder { ranks, items }))
 }
 
 /// A node: its level, and its number there.
@@ -242,12 +270,8 @@ impl<const D: usize> BoxTree<D> {
         group_of: impl Fn(u32) -> u32 + Sync + Send,
     ) -> Self {
         let (items, near) = along_curve(all, n, box_of);
-        let (layout, ranks) = side_by_side(&items, &group_of);
-        let mut tree = Self::of_near(layout, |i| near[i as usize]).with_groups(group_of);
-        if !ranks.is_empty() {
-            (tree.ranks, tree.along) = (ranks, items);
-        }
-        tree
+        let (layout, order) = side_by_side(items, &group_of);
+        Self { order, ..Self::of_near(layout, |i| near[i as usize]).with_groups(group_of) }
     }
 
     /// A tree with its leaves in a given order. O(n).
@@ -266,7 +290,7 @@ impl<const D: usize> BoxTree<D> {
             });
             blocks.push(level);
         }
-        Self { items, blocks, groups: Vec::new(), ranks: Vec::new(), along: Vec::new() }
+        Self { items, blocks, groups: Vec::new(), order: None }
     }
 
     /// The tree with some items in groups: pairs of one group need not be visited, and whole subtrees of them are
@@ -435,7 +459,7 @@ impl<const D: usize> BoxTree<D> {
         let parts = course.map(self.n_nodes(level), |i| {
             let mut blocks = Vec::new();
             self.meeting_blocks((level, i), (self.blocks.len(), 0), &mut blocks);
-            if self.ranks.is_empty() {
+            if self.order.is_none() {
                 blocks.sort_unstable();
             }
             let mut found = Vec::new();
@@ -452,20 +476,11 @@ impl<const D: usize> BoxTree<D> {
             found
         })?;
         let pairs = parts.concat();
-        if self.ranks.is_empty() {
-            return Ok(pairs);
-        }
-        // The order along the curve: what is found of groups, and which items are there besides, shows in no result.
-        let bits = usize::BITS - self.along.len().leading_zeros();
-        let numbers = parallel::map_light(pairs.len(), |i| {
-            let [a, b] = pairs[i].map(|item| u64::from(self.ranks[item as usize]));
-            a.min(b) << bits | a.max(b)
-        });
-        let sorted = sorted_numbers(&numbers, 2 * bits, |_| ());
-        Ok(parallel::map_light(sorted.len(), |i| {
-            let [a, b] = [sorted[i] >> bits, sorted[i] & ((1 << bits) - 1)].map(|at| self.along[at as usize]);
-            [a.min(b), a.max(b)]
-        }))
+        // What is found of groups, and which items are there besides, shows in no result.
+        Ok(match &self.order {
+            Some(order) => order.sorted(&pairs),
+            None => pairs,
+        })
     }
 
     /// The pairs of two blocks, or of one, as leaves; `off` are those of each, as bits, that need not be looked at.

@@ -1,8 +1,9 @@
 //! Stage 1b: one input polygon on the grid → facets that are exactly planar.
 //!
 //! A triangle is a facet. A larger polygon is kept whole when its corners are exactly coplanar, its loops are simple and
-//! all but the first are holes of it; otherwise it is triangulated with diagonals inside. What decides is exact. Only the choice of three
-//! corners and of diagonals looks at the nearest grid points instead of rational corners: any choice is right.
+//! all but the first are holes of it; otherwise it is triangulated with diagonals inside. What decides is exact. Only the
+//! choice of three corners and of diagonals looks at the nearest grid points instead of rational corners: any choice is
+//! right.
 
 use crate::kernel::{Geometry, Plane, Sign, dominant_axis};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
