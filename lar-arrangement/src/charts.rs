@@ -447,31 +447,53 @@ impl Outline<'_> {
 
     /// The edge after each one around the inside: the first one clockwise from it at its head.
     fn next_around(&self) -> Option<Vec<u32>> {
-        let mut ends: Vec<(u32, bool, u32)> = Vec::with_capacity(2 * self.edges.len());
+        let mut ends: Vec<End> = Vec::with_capacity(2 * self.edges.len());
         for (&[tail, head], edge) in self.edges.iter().zip(0..) {
-            ends.extend([(tail, true, edge), (head, false, edge)]);
+            ends.extend([End::new(tail, edge, true), End::new(head, edge, false)]);
         }
         ends.sort_unstable();
         let mut next = vec![0; self.edges.len()];
-        for around in ends.chunk_by_mut(|a, b| a.0 == b.0) {
+        for around in ends.chunk_by_mut(|a, b| a.point() == b.point()) {
             if around.len() > 2 {
                 // Edges that do not fold back differ in direction by far more than angles are rounded.
-                around.sort_by(|a, b| self.angle(a).total_cmp(&self.angle(b)));
+                around.sort_by(|&a, &b| self.angle(a).total_cmp(&self.angle(b)));
             }
-            for (i, &(_, leaves, edge)) in around.iter().enumerate() {
+            for (i, end) in around.iter().enumerate() {
                 let before = around[(i + around.len() - 1) % around.len()];
-                if !leaves {
-                    next[edge as usize] = if before.1 { before.2 } else { return None };
+                if !end.leaves() {
+                    next[end.edge()] = if before.leaves() { before.edge() as u32 } else { return None };
                 }
             }
         }
         Some(next)
     }
 
-    /// The direction from a point to the other end of an edge that leaves it or arrives there.
-    fn angle(&self, &(at, leaves, edge): &(u32, bool, u32)) -> f64 {
-        let to = minus(self.at(self.edges[edge as usize][usize::from(leaves)]), self.at(at));
+    /// The direction from the point of an end to the other end of the edge.
+    fn angle(&self, end: End) -> f64 {
+        let to = minus(self.at(self.edges[end.edge()][usize::from(end.leaves())]), self.at(end.point()));
         to[1].atan2(to[0])
+    }
+}
+
+/// An end of an edge, fewer than 2^31 of them: the point above the edge above whether the edge leaves it.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct End(u64);
+
+impl End {
+    fn new(point: u32, edge: u32, leaves: bool) -> Self {
+        Self(u64::from(point) << 32 | u64::from(edge) << 1 | u64::from(leaves))
+    }
+
+    fn point(self) -> u32 {
+        (self.0 >> 32) as u32
+    }
+
+    fn edge(self) -> usize {
+        (self.0 as u32 >> 1) as usize
+    }
+
+    fn leaves(self) -> bool {
+        self.0 & 1 != 0
     }
 }
 

@@ -21,6 +21,8 @@ use wide::u8x16;
 
 /// Fewer facets are not worth it.
 const FEW: usize = 1 << 12;
+/// Of so many facets most begin where it is not crowded, and need no closer look.
+const MANY: usize = 1 << 15;
 /// There are so many voxels a facet in a cube around the scene.
 const VOXELS_A_FACET: f64 = 3.0;
 /// And no more than so many: a place fits into eight bits.
@@ -38,23 +40,23 @@ pub(crate) fn facets(soup: &Soup, charts: &Charts, reach: f64, all: &Aabb) -> Op
         return None;
     }
     let voxels = Voxels::new(soup, all, reach);
-    let firsts = parallel::map_light(n, |f| voxels.first(voxels.block(soup, f as u32)));
-    let mut marks = voxels.marked(soup, charts, &firsts)?;
-    let is_crowded = voxels.crowded(&mut marks);
-    let crowded = parallel::select(n, |f| match firsts[f as usize] {
-        // There are few.
-        LARGE => true,
-        first => is_crowded[first as usize],
-    });
-    let blocks = parallel::map_light(crowded.len(), |i| voxels.block(soup, crowded[i]));
-    voxels.mark_anew(&mut marks, &blocks, |i| charts.all(crowded[i]));
+    let mut marks = vec![Shared::default(); voxels.size.iter().product()];
+    let looked_at: Vec<u32> =
+        if n < MANY { (0..n as u32).collect() } else { voxels.in_crowds(soup, charts, &mut marks)? };
+    let blocks = parallel::map_light(looked_at.len(), |i| voxels.block(soup, looked_at[i]));
+    if n < MANY {
+        voxels.bound(n, blocks.iter().filter(|block| voxels.first(**block) == LARGE))?;
+    } else {
+        voxels.clear(&mut marks, &blocks);
+    }
+    voxels.mark(&mut marks, &blocks, |i| charts.all(looked_at[i]));
     let is_met = |i: u32| {
         let mut is_met = false;
         voxels.each(blocks[i as usize], |voxel| is_met |= marks[voxel].is_nothing());
         is_met
     };
-    let met = parallel::select(crowded.len(), is_met);
-    (4 * met.len() < 3 * n).then(|| met.into_iter().map(|i| crowded[i as usize]).collect())
+    let met = parallel::select(looked_at.len(), is_met);
+    (4 * met.len() < 3 * n).then(|| met.into_iter().map(|i| looked_at[i as usize]).collect())
 }
 
 /// What something reaches into: along each axis k the first voxel, byte k, and the last, 255 less byte 4 + k.
@@ -129,44 +131,55 @@ impl Voxels {
         if width[0] | width[1] | width[2] <= 1 { self.index(first(block)) as u32 } else { LARGE }
     }
 
-    /// The voxels with the marks of the facets that begin there, which is everywhere for those that are too large; nothing
-    /// when there are too many of these. Every thread looks at all facets for its part of the voxels.
-    fn marked(&self, soup: &Soup, charts: &Charts, firsts: &[u32]) -> Option<Vec<Shared>> {
-        let large = parallel::select(firsts.len(), |f| firsts[f as usize] == LARGE);
+    /// Nothing when the blocks of so many facets that are large have too many voxels.
+    fn bound<'a>(&self, n: usize, large: impl Iterator<Item = &'a Block>) -> Option<()> {
+        let mut left = MOST_VOXELS_A_FACET * n;
+        for &block in large {
+            left = left.checked_sub(width(block).iter().map(|width| width + 1).product())?;
+        }
+        Some(())
+    }
+
+    /// The facets that begin where it is crowded, or are too large for one voxel, and some of their marks; nothing when there
+    /// are too many large ones. Marks are those of the facets that begin in a voxel, which is everywhere for large ones.
+    /// Every thread looks at all facets for its part of the voxels.
+    fn in_crowds(&self, soup: &Soup, charts: &Charts, marks: &mut [Shared]) -> Option<Vec<u32>> {
+        let n = soup.n_facets();
+        let firsts = parallel::map_light(n, |f| self.first(self.block(soup, f as u32)));
+        let large = parallel::select(n, |f| firsts[f as usize] == LARGE);
         let blocks: Vec<Block> = large.iter().map(|&facet| self.block(soup, facet)).collect();
-        blocks.iter().try_fold(MOST_VOXELS_A_FACET * firsts.len(), |left, &block| {
-            left.checked_sub(width(block).iter().map(|width| width + 1).product())
-        })?;
-        let mut marks = vec![Shared::default(); self.size.iter().product()];
-        parallel::map_parts(&mut marks, |range, marks| {
+        self.bound(n, blocks.iter())?;
+        parallel::map_parts(marks, |range, marks| {
             for (facet, &first) in firsts.iter().enumerate() {
                 if let Some(mark) = (first as usize).checked_sub(range.start).and_then(|i| marks.get_mut(i)) {
                     *mark = mark.with(charts.all(facet as u32));
                 }
             }
-            for (&facet, &block) in large.iter().zip(&blocks) {
-                let own = charts.all(facet);
-                self.each_in(block, range.start, marks, |mark| *mark = mark.with(own));
-            }
         });
-        Some(marks)
+        self.mark(marks, &blocks, |i| charts.all(large[i]));
+        let is_crowded = self.crowded(marks);
+        Some(parallel::select(n, |f| match firsts[f as usize] {
+            // There are few.
+            LARGE => true,
+            first => is_crowded[first as usize],
+        }))
     }
 
-    /// Marks the blocks of some facets anew, and nothing else in these. Every thread looks at all of them for its part of the
-    /// voxels.
-    fn mark_anew(
-        &self,
-        marks: &mut [Shared],
-        blocks: &[Block],
-        charts: impl Fn(usize) -> Shared + Sync + Send,
-    ) {
+    /// Marks the blocks of some facets. Every thread looks at all of them for its part of the voxels.
+    fn mark(&self, marks: &mut [Shared], blocks: &[Block], charts: impl Fn(usize) -> Shared + Sync + Send) {
         parallel::map_parts(marks, |range, marks| {
-            for &block in blocks {
-                self.each_in(block, range.start, marks, |mark| *mark = Shared::default());
-            }
             for (i, &block) in blocks.iter().enumerate() {
                 let own = charts(i);
                 self.each_in(block, range.start, marks, |mark| *mark = mark.with(own));
+            }
+        });
+    }
+
+    /// Leaves no mark in some blocks. Every thread looks at all of them for its part of the voxels.
+    fn clear(&self, marks: &mut [Shared], blocks: &[Block]) {
+        parallel::map_parts(marks, |range, marks| {
+            for &block in blocks {
+                self.each_in(block, range.start, marks, |mark| *mark = Shared::default());
             }
         });
     }

@@ -7,7 +7,7 @@
 mod local;
 
 use crate::half_edges::MANY;
-use crate::kernel::{Along, Direction, Vertex};
+use crate::kernel::{Along, Vertex, Way};
 use crate::parallel;
 use crate::progress::{Cancelled, Course};
 use crate::soup::Soup;
@@ -20,9 +20,9 @@ use std::ops::Range;
 
 /// A piece of an edge, from `ends[0]` to `ends[1]`; vertices from `n_base` on are new ones of the same chunk.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Piece {
+pub(crate) struct Piece<D = Way> {
     pub ends: [u32; 2],
-    pub direction: Direction,
+    pub direction: D,
     pub soft: bool,
 }
 
@@ -177,10 +177,14 @@ impl Fragmenter<'_> {
             if self.cuts.inner.of(edge / 2).is_empty() {
                 out.half_edges.push(WHOLE | edge);
             } else {
-                self.walk(edge, |piece| {
-                    out.half_edges.push(2 * out.pieces.len() as u32);
-                    out.pieces.push(piece);
-                });
+                self.walk(
+                    edge,
+                    |way| way,
+                    |piece| {
+                        out.half_edges.push(2 * out.pieces.len() as u32);
+                        out.pieces.push(piece);
+                    },
+                );
             }
             if first == Some(head) {
                 out.close_loop();
@@ -190,12 +194,11 @@ impl Fragmenter<'_> {
         out.close_face([FacetParent { facet, same_way: true }]);
     }
 
-    /// The pieces of a directed edge in its direction.
-    fn walk(&self, edge: u32, mut visit: impl FnMut(Piece)) {
+    /// The pieces of a directed edge in its direction, which is given as its way tells.
+    fn walk<D: Copy>(&self, edge: u32, told: impl FnOnce(Way) -> D, mut visit: impl FnMut(Piece<D>)) {
         let id = edge / 2;
         let ends = self.soup.edges[id as usize];
-        let along = self.soup.geometry.direction(Along::Edge(ends));
-        let direction = if edge.is_multiple_of(2) { along } else { along.opposite() };
+        let direction = told(Way { along: Along::Edge(ends), reversed: !edge.is_multiple_of(2) });
         let [tail, head] = self.soup.directed(edge);
         let inner = self.cuts.inner.of(id);
         let n = inner.len();

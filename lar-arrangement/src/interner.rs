@@ -1,8 +1,6 @@
-//! Vertices by definition: different definitions of one point become one vertex, by exact equality.
+//! Vertices of one group of facets: those that are one point become one vertex as they come.
 
-use crate::grid_points::PointTable;
 use crate::kernel::{Geometry, Vertex};
-use crate::parallel;
 use rustc_hash::FxHashMap;
 
 /// Among so many vertices one is looked for without a table.
@@ -14,8 +12,6 @@ pub(crate) struct Interner {
     pub vertices: Vec<Vertex>,
     /// How many of them, the first ones, are in the tables.
     n_entered: usize,
-    /// Points of the input by their coordinates.
-    grid_points: PointTable,
     /// First vertex with a position; the position is correctly rounded, so equal points have equal positions.
     first_at: FxHashMap<[u64; 3], u32>,
     /// Next vertex with the same position, or the vertex itself.
@@ -23,47 +19,12 @@ pub(crate) struct Interner {
 }
 
 impl Interner {
-    /// The points of the input, in their order. Grid points are looked up by their integer coordinates and need no
-    /// other keys.
-    pub(crate) fn new(geometry: &Geometry, grid_points: PointTable) -> Self {
-        let n = geometry.n_points();
-        let mut interner = Self {
-            vertices: Vec::with_capacity(n + n / 8),
-            next_at: Vec::with_capacity(n + n / 8),
-            grid_points,
-            ..Self::default()
-        };
-        if geometry.is_on_grid() {
-            parallel::extend_light(&mut interner.vertices, n, |p| geometry.point_vertex(p as u32));
-            interner.next_at.extend(0..n as u32);
-            interner.n_entered = n;
-            return interner;
-        }
-        for p in 0..n as u32 {
-            interner.vertices.push(geometry.point_vertex(p));
-            if geometry.grid_point(p).is_some() {
-                interner.next_at.push(p);
-                interner.n_entered += 1;
-            } else {
-                interner.enter();
-            }
-        }
-        interner
-    }
-
     /// Forgets all vertices that were pushed or interned, but keeps their memory.
     pub(crate) fn clear(&mut self) {
         self.vertices.clear();
         self.next_at.clear();
         self.first_at.clear();
         self.n_entered = 0;
-    }
-
-    /// Makes room for so many vertices more.
-    pub(crate) fn reserve(&mut self, n: usize) {
-        self.vertices.reserve(n);
-        self.next_at.reserve(n);
-        self.first_at.reserve(n);
     }
 
     /// Adds a vertex that is known to differ from all others.
@@ -99,12 +60,6 @@ impl Interner {
         }
         while self.n_entered < self.vertices.len() {
             self.enter();
-        }
-        let at = vertex.at.map(|x| x as i64);
-        if let Some(p) = self.grid_points.find(at, |p| geometry.nearest_grid_point(p))
-            && geometry.coincide(&self.vertices[p as usize], vertex)
-        {
-            return Some(p);
         }
         let mut at = *self.first_at.get(&key(vertex))?;
         loop {

@@ -50,6 +50,7 @@ mod tiles;
 mod trace;
 mod union_find;
 mod vector;
+mod vertices;
 mod visible;
 mod winding;
 mod wrap;

@@ -6,12 +6,13 @@
 mod faces;
 mod numbering;
 
+use crate::counting::offsets;
 use crate::fragment::{FacetParent, Fragments, Groups, WHOLE};
-use crate::interner::Interner;
-use crate::kernel::{Along, Direction, Geometry, Vertex, VertexDef};
+use crate::kernel::{Along, Direction, Geometry, Vertex, VertexDef, Way};
 use crate::parallel;
 use crate::soup::Soup;
 use crate::split::Cuts;
+use crate::vertices::Vertices;
 use faces::Faces;
 use lar_core::Cells;
 use numbering::Numbering;
@@ -26,7 +27,7 @@ pub(crate) struct Skeleton {
     /// The edges that are pieces, not whole edges of the input, ascending.
     pieces: Vec<u32>,
     /// Their directions, from the smaller end to the larger.
-    directions: Vec<Direction>,
+    directions: Vec<Way>,
     /// Whether an edge is only a diagonal inside a polygon; empty when none is.
     soft: Vec<bool>,
     /// Half-edges (2 · edge, + 1 against its direction) of each loop, the face on their left.
@@ -83,21 +84,17 @@ impl Skeleton {
     pub(crate) fn new(
         mut fragments: Vec<Fragments>,
         groups: &Groups,
-        mut interner: Interner,
+        mut vertices: Vertices,
         soup: &Soup,
         cuts: &Cuts,
     ) -> Self {
-        let n_base = interner.vertices.len() as u32;
-        for part in &mut fragments {
-            let ids: Vec<u32> = part.vertices.drain(..).map(|v| interner.intern(v, &soup.geometry)).collect();
-            for piece in &mut part.pieces {
-                piece.ends = piece.ends.map(|v| if v < n_base { v } else { ids[(v - n_base) as usize] });
-            }
-        }
+        unify(&mut fragments, &mut vertices, soup);
         let parts = Parts { fragments: &fragments, groups, soup };
-        let n_vertices = interner.vertices.len();
-        let ((vertices, compact), mut numbering) =
-            parallel::join(|| used_vertices(&parts, interner), || Numbering::new(&parts, cuts, n_vertices));
+        let n_vertices = vertices.list.len();
+        let ((vertices, compact), mut numbering) = parallel::join(
+            || used_vertices(&parts, vertices.list),
+            || Numbering::new(&parts, cuts, n_vertices),
+        );
         let edges = match compact {
             None => numbering.edges(|v| v),
             Some(compact) => numbering.edges(|v| compact[v as usize]),
@@ -167,7 +164,7 @@ impl Skeleton {
         let ends = self.edges[edge as usize].map(|v| self.vertices[v as usize].def);
         match (self.pieces.binary_search(&edge), ends) {
             (Err(_), [VertexDef::Point(p), VertexDef::Point(q)]) => geometry.direction(Along::Edge([p, q])),
-            (Ok(at) | Err(at), _) => self.directions[at],
+            (Ok(at) | Err(at), _) => geometry.towards(self.directions[at]),
         }
     }
 
@@ -176,6 +173,25 @@ impl Skeleton {
         let [a, b] = self.edges[(half_edge / 2) as usize];
         if half_edge.is_multiple_of(2) { [a, b] } else { [b, a] }
     }
+}
+
+/// Gives the new vertices of all parts their numbers.
+fn unify(fragments: &mut [Fragments], vertices: &mut Vertices, soup: &Soup) {
+    let n_base = vertices.list.len() as u32;
+    let lengths = fragments.iter().map(|part| part.vertices.len() as u32);
+    let begins = offsets(lengths.collect::<Vec<_>>().into_iter());
+    let mut found = Vec::with_capacity(begins.last().map_or(0, |&n| n as usize));
+    for part in fragments.iter_mut() {
+        found.append(&mut part.vertices);
+        part.vertices = Vec::new();
+    }
+    let numbers = vertices.unify(&found, &soup.geometry);
+    let parts = begins.into_iter().zip(fragments.iter_mut()).collect();
+    parallel::each(parts, |(begin, part): (u32, &mut Fragments)| {
+        for v in part.pieces.iter_mut().flat_map(|piece| &mut piece.ends).filter(|v| **v >= n_base) {
+            *v = numbers[(begin + (*v - n_base)) as usize];
+        }
+    });
 }
 
 /// All that the skeleton is made of.
@@ -241,8 +257,7 @@ fn range_before(ends: &[u32], i: usize) -> Range<usize> {
 
 /// The vertices that edges end at, in their order, and the new number of each (only those of used ones count); none when all
 /// are used.
-fn used_vertices(parts: &Parts<'_>, interner: Interner) -> (Vec<Vertex>, Option<Vec<u32>>) {
-    let mut vertices = interner.vertices;
+fn used_vertices(parts: &Parts<'_>, mut vertices: Vec<Vertex>) -> (Vec<Vertex>, Option<Vec<u32>>) {
     let used = parallel::map(parallel::n_threads(), |part| used_in(parts, part, vertices.len()));
     let is_used = |v: usize| used.iter().any(|used| used[v]);
     if parallel::all(vertices.len(), is_used) {

@@ -2,10 +2,10 @@
 //! pieces. Also the lists of what lies inside each facet.
 
 use crate::crossing::{Contacts, Segment};
-use crate::interner::Interner;
-use crate::kernel::{Along, Sign};
+use crate::kernel::{Along, Sign, Vertex};
 use crate::parallel;
 use crate::soup::Soup;
+use crate::vertices::Vertices;
 
 /// The contacts of all facets, by edge and by facet.
 #[derive(Debug)]
@@ -57,18 +57,18 @@ impl<T> Sparse<T> {
 
 impl Cuts {
     /// Unifies the vertices of the contacts and sorts everything.
-    pub(crate) fn new(soup: &Soup, contacts: Contacts, interner: &mut Interner) -> Self {
+    pub(crate) fn new(soup: &Soup, contacts: Contacts, vertices: &mut Vertices) -> Self {
         let geometry = &soup.geometry;
         let n_points = geometry.n_points() as u32;
-        interner.reserve(contacts.vertices.len());
-        let ids: Vec<u32> = contacts.vertices.into_iter().map(|v| interner.intern(v, geometry)).collect();
+        let Contacts { vertices: found, splits, segments, touches, .. } = contacts;
+        let ids = vertices.unify(&found, geometry);
+        drop(found);
         let id = |v: u32| if v < n_points { v } else { ids[(v - n_points) as usize] };
-        let Contacts { splits, segments, touches, .. } = contacts;
         let inside_edges = || {
             let mut splits: Vec<(u32, u32)> = splits.into_iter().map(|(e, v)| (e, id(v))).collect();
             splits.sort_unstable();
             splits.dedup();
-            sorted_along_edges(soup, splits, interner)
+            sorted_along_edges(soup, splits, &vertices.list)
         };
         let inside_facets = || {
             let mut segments: Vec<Segment> =
@@ -112,9 +112,9 @@ pub(crate) fn offsets(n: usize, list: impl Iterator<Item = u32>) -> Vec<u32> {
 }
 
 /// The points inside edges, from the first end to the second.
-fn sorted_along_edges(soup: &Soup, splits: Vec<(u32, u32)>, interner: &Interner) -> Sparse<u32> {
+fn sorted_along_edges(soup: &Soup, splits: Vec<(u32, u32)>, vertices: &[Vertex]) -> Sparse<u32> {
     let geometry = &soup.geometry;
-    let vertex = |v: u32| &interner.vertices[v as usize];
+    let vertex = |v: u32| &vertices[v as usize];
     let mut inner = Sparse::new(splits, |s| s.0, |s| s.1);
     for (&edge, range) in inner.keys.iter().zip(inner.offsets.windows(2)) {
         let on_edge = &mut inner.items[range[0] as usize..range[1] as usize];

@@ -1,6 +1,6 @@
 //! One group of overlapping facets cut into faces: a planar subdivision of its own.
 
-use super::{Extent, FacetParent, Fragmenter, Fragments, Piece};
+use super::{Extent, FacetParent, Fragmenter, Fragments};
 use crate::boxes::{Aabb, BoxTree};
 use crate::crossing::segment_direction;
 use crate::interner::Interner;
@@ -29,6 +29,9 @@ impl CutLine {
         self.ends[0] == self.ends[1]
     }
 }
+
+/// A piece with the approximation of its direction.
+type Piece = super::Piece<Direction>;
 
 /// A vertex inside a line.
 type Split = (u32, u32);
@@ -171,15 +174,19 @@ impl<'a> Local<'a> {
         all.clear();
         for (&facet, member) in self.group.iter().zip(0..) {
             for &edge in &self.from.soup.facet_edges[facet as usize] {
-                self.from.walk(edge, |piece| {
-                    let [a, b] = piece.ends.map(|v| self.local(v));
-                    let (ends, direction, sign) = if a < b {
-                        ([a, b], piece.direction, 1)
-                    } else {
-                        ([b, a], piece.direction.opposite(), -1)
-                    };
-                    all.push((Piece { ends, direction, ..piece }, Use { member, sign }, edge / 2));
-                });
+                self.from.walk(
+                    edge,
+                    |way| self.geometry().towards(way),
+                    |piece| {
+                        let [a, b] = piece.ends.map(|v| self.local(v));
+                        let (ends, direction, sign) = if a < b {
+                            ([a, b], piece.direction, 1)
+                        } else {
+                            ([b, a], piece.direction.opposite(), -1)
+                        };
+                        all.push((Piece { ends, direction, ..piece }, Use { member, sign }, edge / 2));
+                    },
+                );
             }
         }
         if self.from.extent == Extent::NearResult && self.group.len() > 1 {
@@ -486,7 +493,11 @@ impl<'a> Local<'a> {
             None => new_from + v - self.known.len() as u32,
         };
         let first_piece = out.pieces.len() as u32;
-        out.pieces.extend(self.pieces.iter().map(|p| Piece { ends: p.ends.map(global), ..*p }));
+        out.pieces.extend(self.pieces.iter().map(|p| super::Piece {
+            ends: p.ends.map(global),
+            direction: p.direction.way(),
+            soft: p.soft,
+        }));
         for face in 1..subdivision.n_faces() {
             let members = windings.as_ref().map_or(&[(0, 1)][..], |windings| windings.of(face));
             let Some(&(first, _)) = members.first() else { continue };

@@ -43,7 +43,7 @@ pub(crate) use double::Fraction;
 pub(crate) use geometry::{CanonicalPoints, Geometry, RationalPoint, Support, Vertex, VertexDef, to_f64};
 pub(crate) use int::Int;
 pub(crate) use point::{Plane, dominant_axis, rounded_quotient};
-pub(crate) use predicates::{Along, Direction, Midpoint, Side, Spot, crossing_near};
+pub(crate) use predicates::{Along, Direction, Midpoint, Side, Spot, Way, crossing_near};
 pub(crate) use turns::Seen;
 
 /// The sign of an exact quantity.

@@ -12,6 +12,19 @@ pub(crate) enum Along {
     Facets([u32; 2]),
 }
 
+/// A direction by definition: that of a line, or against it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Way {
+    pub along: Along,
+    pub reversed: bool,
+}
+
+impl Way {
+    pub(crate) fn opposite(self) -> Self {
+        Self { reversed: !self.reversed, ..self }
+    }
+}
+
 /// A direction with its approximation: each component of `float` is within `error` of the exact one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Direction {
@@ -22,6 +35,10 @@ pub(crate) struct Direction {
 }
 
 impl Direction {
+    pub(crate) fn way(&self) -> Way {
+        Way { along: self.along, reversed: self.reversed }
+    }
+
     pub(crate) fn opposite(self) -> Self {
         Self { reversed: !self.reversed, float: self.float.map(|x| -x), ..self }
     }
@@ -158,6 +175,12 @@ impl Geometry {
             Along::Facets(facets) => self.cross_product(facets),
         };
         Direction { along, reversed: false, float, error }
+    }
+
+    /// The direction of a way with its approximation.
+    pub(crate) fn towards(&self, way: Way) -> Direction {
+        let along = self.direction(way.along);
+        if way.reversed { along.opposite() } else { along }
     }
 
     #[inline]

@@ -11,9 +11,9 @@
 //! ```
 
 use super::{Group, Parts};
-use crate::fragment::{Piece, WHOLE};
+use crate::fragment::{Fragments, Piece, WHOLE};
 use crate::half_edges::{self, HalfEdges};
-use crate::kernel::Direction;
+use crate::kernel::Way;
 use crate::parallel;
 use crate::soup::Soup;
 use crate::split::Cuts;
@@ -54,7 +54,7 @@ pub(super) struct Numbering<'a> {
     /// The edges that are no edges of the input, ascending.
     pub pieces: Vec<u32>,
     /// Their directions, from the smaller end to the larger.
-    pub directions: Vec<Direction>,
+    pub directions: Vec<Way>,
     /// Whether there may be soft edges.
     any_soft: bool,
     /// Edges that stay because of a piece.
@@ -86,14 +86,17 @@ impl<'a> Numbering<'a> {
 
     fn unnumbered(parts: &Parts<'a>, cuts: &'a Cuts, n_vertices: usize) -> Self {
         let soup = parts.soup;
-        let pieces = || parts.fragments.iter().flat_map(|part| &part.pieces);
         let mut is_border = vec![false; soup.edges.len()];
         for &code in parts.groups.members.indices().iter().flat_map(|&f| &soup.facet_edges[f as usize]) {
             is_border[(code / 2) as usize] = true;
         }
         // Pieces between points of the input may be edges of it, of members or of others.
         let n_points = soup.geometry.n_points() as u32;
-        let between_points: Vec<[u32; 2]> = pieces().map(ends_of).filter(|ends| ends[1] < n_points).collect();
+        let between_points: Vec<[u32; 2]> = parallel::map(parts.fragments.len(), |part| {
+            let pieces = parts.fragments[part].pieces.iter();
+            pieces.map(ends_of).filter(|ends| ends[1] < n_points).collect::<Vec<_>>()
+        })
+        .concat();
         let input_edges = soup.edges_between(between_points.iter().copied());
         for ends in between_points {
             if let Some(&edge) = input_edges.get(&ends) {
@@ -103,8 +106,15 @@ impl<'a> Numbering<'a> {
         let border = parallel::select(is_border.len(), |edge| is_border[edge as usize]);
         let mut whole = parallel::zeros(soup.edges.len());
         border.iter().for_each(|&edge| whole[edge as usize] = NOT_SEEN);
-        let (tails, heads): (Vec<u32>, Vec<u32>) =
-            pieces().map(|piece| (piece.ends[0], piece.ends[1])).unzip();
+        let [tails, heads] = [0, 1].map(|end| {
+            let lengths = parts.fragments.iter().map(|part| part.pieces.len());
+            let mut ends = parallel::zeros(lengths.clone().sum());
+            let of_parts = parallel::cut(&mut ends, lengths).into_iter().zip(parts.fragments).collect();
+            parallel::each(of_parts, |(ends, part): (&mut [u32], &Fragments)| {
+                ends.iter_mut().zip(&part.pieces).for_each(|(to, piece)| *to = piece.ends[end]);
+            });
+            ends
+        });
         let half_edges = HalfEdges::Listed { tails: &tails, heads: &heads };
         let first_piece = half_edges::first_of_edge(n_vertices, half_edges);
         Self {
@@ -118,7 +128,7 @@ impl<'a> Numbering<'a> {
             half_edges: Vec::with_capacity(parts.sum(|part| part.half_edges.len())),
             pieces: Vec::new(),
             directions: Vec::new(),
-            any_soft: soup.has_soft_edges() || pieces().any(|piece| piece.soft),
+            any_soft: soup.has_soft_edges(),
             hard: Vec::new(),
             input_edges,
             edge_of_first: vec![NOT_SEEN; first_piece.len()],

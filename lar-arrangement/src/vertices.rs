@@ -1,0 +1,202 @@
+//! Vertices by definition: different definitions of one point become one vertex, by exact equality. Many are unified at
+//! once, by all threads.
+
+use crate::counting::sorted_numbers;
+use crate::grid_points::{PointTable, hash};
+use crate::kernel::{Geometry, Vertex};
+use crate::parallel;
+use std::ops::Range;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
+/// Not known.
+const NONE: u32 = u32::MAX;
+
+/// All vertices found so far: pairwise distinct points.
+#[derive(Debug)]
+pub(crate) struct Vertices {
+    pub list: Vec<Vertex>,
+    /// Points of the input by their coordinates.
+    grid_points: PointTable,
+    /// The others, as they came together: the hash of each one's position above its number, ascending.
+    others: Vec<Vec<u64>>,
+}
+
+impl Vertices {
+    /// The points of the input, in their order. Grid points are looked up by their integer coordinates and need no
+    /// other keys.
+    pub(crate) fn new(geometry: &Geometry, grid_points: PointTable) -> Self {
+        let n = geometry.n_points();
+        let mut list = Vec::with_capacity(n + n / 8);
+        parallel::extend_light(&mut list, n, |p| geometry.point_vertex(p as u32));
+        let mut others = Vec::new();
+        if !geometry.is_on_grid() {
+            let rational = parallel::select(n, |p| geometry.grid_point(p).is_none());
+            others.push(sorted_by_position(&list, &rational));
+        }
+        Self { list, grid_points, others }
+    }
+
+    /// The number of each of some vertices, known or new; new ones are numbered in the order in which they come first.
+    /// O(n) expected.
+    pub(crate) fn unify(&mut self, found: &[Vertex], geometry: &Geometry) -> Vec<u32> {
+        let known = parallel::map_light(found.len(), |i| self.on_grid(&found[i], geometry).unwrap_or(NONE));
+        let unknown = parallel::select(found.len(), |i| known[i as usize] == NONE);
+        let sorted = sorted_by_position(found, &unknown);
+        let n_known = self.list.len() as u32;
+        // A vertex that is not known is, counted behind the known ones, the first that is the same point.
+        let first: Vec<AtomicU32> = known.into_iter().map(AtomicU32::new).collect();
+        let (n_chunks, range) = parallel::chunks(sorted.len(), parallel::LIGHT_CHUNK);
+        parallel::map(n_chunks, |chunk| {
+            self.unify_chunk(&sorted, range(chunk), found, geometry, |i, number| {
+                first[i as usize].store(number, Relaxed);
+            });
+        });
+        let is_first = |i: u32| first[i as usize].load(Relaxed).checked_sub(n_known) == Some(i);
+        let firsts = parallel::select(found.len(), is_first);
+        let number = parallel::atomic_zeros(found.len());
+        parallel::for_each(firsts.len(), |k| number[firsts[k] as usize].store(n_known + k as u32, Relaxed));
+        let number_of = |i: usize| match first[i].load(Relaxed).checked_sub(n_known) {
+            Some(first) => number[first as usize].load(Relaxed),
+            None => first[i].load(Relaxed),
+        };
+        parallel::extend_light(&mut self.list, firsts.len(), |k| found[firsts[k] as usize]);
+        let keyed = parallel::select(sorted.len(), |k| is_first(sorted[k as usize] as u32));
+        self.others.push(parallel::map_light(keyed.len(), |k| {
+            let entry = sorted[keyed[k] as usize];
+            position_of(entry) | u64::from(number[entry as u32 as usize].load(Relaxed))
+        }));
+        parallel::map_light(found.len(), number_of)
+    }
+
+    /// The point of the input that a vertex is, if it is one on the grid.
+    fn on_grid(&self, vertex: &Vertex, geometry: &Geometry) -> Option<u32> {
+        let at = vertex.at.map(|x| x as i64);
+        let p = self.grid_points.find(at, |p| geometry.nearest_grid_point(p))?;
+        geometry.coincide(&self.list[p as usize], vertex).then_some(p)
+    }
+
+    /// Those of a chunk of the sorted ones with positions that do not begin before it: calls `set` with each, and with its
+    /// number among the known ones or, behind them, that of the first one that is the same point.
+    fn unify_chunk(
+        &self,
+        sorted: &[u64],
+        chunk: Range<usize>,
+        found: &[Vertex],
+        geometry: &Geometry,
+        set: impl Fn(u32, u32),
+    ) {
+        let begins = |k: usize| k == 0 || position_of(sorted[k - 1]) != position_of(sorted[k]);
+        let Some(mut at) = chunk.clone().find(|&k| begins(k)) else { return };
+        let from = |list: &[u64], position: u64| list.partition_point(|&entry| entry < position);
+        let mut known: Vec<&[u64]> = self.others.iter().map(|list| &list[from(list, sorted[at])..]).collect();
+        let mut distinct: Vec<u32> = Vec::new();
+        while at < chunk.end {
+            let position = position_of(sorted[at]);
+            let same = sorted[at..].iter().take_while(|&&entry| position_of(entry) == position);
+            distinct.clear();
+            // Those before in the lists are of positions before.
+            for list in &mut known {
+                let n_before = list.iter().take_while(|&&entry| entry < position).count();
+                *list = &list[n_before..];
+            }
+            let here =
+                |list: &&[u64]| list.iter().take_while(|&&entry| position_of(entry) == position).count();
+            for &entry in same {
+                let (i, vertex) = (entry as u32, &found[entry as u32 as usize]);
+                let mut of_lists =
+                    known.iter().flat_map(|list| &list[..here(list)]).map(|&entry| entry as u32);
+                let number = of_lists.find(|&v| geometry.coincide(&self.list[v as usize], vertex));
+                let first =
+                    || distinct.iter().copied().find(|&j| geometry.coincide(&found[j as usize], vertex));
+                match number.or_else(|| first().map(|j| self.list.len() as u32 + j)) {
+                    Some(number) => set(i, number),
+                    None => {
+                        set(i, self.list.len() as u32 + i);
+                        distinct.push(i);
+                    }
+                }
+                at += 1;
+            }
+        }
+    }
+}
+
+/// Half of the hash of a position, above the number of a vertex.
+fn keyed(vertex: &Vertex, number: u32) -> u64 {
+    // Adding zero makes −0 and 0 one.
+    position_of(hash(vertex.at.map(|x| (x + 0.0).to_bits() as i64))) | u64::from(number)
+}
+
+/// An entry without its number.
+fn position_of(entry: u64) -> u64 {
+    entry >> 32 << 32
+}
+
+/// Some vertices of a list by their positions, those of one position in their order.
+fn sorted_by_position(list: &[Vertex], some: &[u32]) -> Vec<u64> {
+    let keys = parallel::map_light(some.len(), |k| keyed(&list[some[k] as usize], some[k]));
+    sorted_numbers(&keys, u64::BITS, |_| ())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::Sign;
+    use crate::soup::{Placed, Soup};
+    use lar_core::{Points, Surface};
+    use proptest::prelude::*;
+    use std::num::NonZeroUsize;
+
+    /// Where edges of a soup pass through its facets: on a coarse lattice many are one point, or a point of the input.
+    fn crossings(soup: &Soup) -> Vec<Vertex> {
+        let geometry = &soup.geometry;
+        let of_facet = |facet: u32| {
+            let is_across = move |ends: [u32; 2]| {
+                ends.map(|p| geometry.side_of_point(p, facet)).iter().all(|s| *s != Sign::Zero)
+                    && geometry.side_of_point(ends[0], facet) != geometry.side_of_point(ends[1], facet)
+            };
+            let across = soup.edges.iter().copied().filter(move |&ends| is_across(ends));
+            across.map(move |ends| geometry.vertex_on_edge(geometry.edge_definition(ends, facet)))
+        };
+        (0..soup.n_facets() as u32).flat_map(of_facet).collect()
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+        #[test]
+        fn vertices_are_unified_as_one_by_one(
+            corners in prop::collection::vec(prop::array::uniform3(0i8..4), 12..60),
+            scale in prop::sample::select(vec![1.0, 0.3]),
+        ) {
+            let points: Vec<[f64; 3]> = corners.iter().map(|p| p.map(|x| scale * f64::from(x))).collect();
+            let mut surface = Surface::new("soup", Points::from_xyz(&points));
+            for corner in (0..points.len() as u32 - 2).step_by(3) {
+                surface.push_face([&[corner, corner + 1, corner + 2][..]], 1);
+            }
+            let surfaces = [surface];
+            let soup = || Soup::new(&surfaces, Placed::snapped(&surfaces, |_, _| 0.0).expect("finite points"));
+            let geometry = soup().geometry;
+            let found = crossings(&soup());
+            let mut list: Vec<Vertex> = (0..geometry.n_points() as u32).map(|p| geometry.point_vertex(p)).collect();
+            let number = |vertex: &Vertex| {
+                let known = list.iter().position(|known| geometry.coincide(known, vertex));
+                list.extend(known.is_none().then_some(*vertex));
+                known.unwrap_or(list.len() - 1) as u32
+            };
+            let expected: Vec<u32> = found.iter().map(number).collect();
+            for threads in 1..=3 {
+                let unified = || {
+                    let mut vertices = Vertices::new(&geometry, soup().point_ids);
+                    // The later ones may be one with those that came before.
+                    let (before, after) = found.split_at(found.len() / 3);
+                    let numbers = [before, after].map(|some| vertices.unify(some, &geometry)).concat();
+                    (numbers, vertices.list)
+                };
+                let (numbers, unified) =
+                    parallel::Team::new(NonZeroUsize::new(threads)).work(usize::MAX, unified).expect("threads");
+                prop_assert_eq!(&numbers, &expected);
+                prop_assert!(unified.iter().map(|v| v.def).eq(list.iter().map(|v| v.def)));
+            }
+        }
+    }
+}
