@@ -87,8 +87,9 @@ impl Vertices {
     ) {
         let begins = |k: usize| k == 0 || position_of(sorted[k - 1]) != position_of(sorted[k]);
         let Some(mut at) = chunk.clone().find(|&k| begins(k)) else { return };
-        let from = |list: &[u64], position: u64| list.partition_point(|&entry| entry < position);
-        let mut known: Vec<&[u64]> = self.others.iter().map(|list| &list[from(list, sorted[at])..]).collect();
+        let before = |list: &[u64], position: u64| list.partition_point(|&entry| entry < position);
+        let position = position_of(sorted[at]);
+        let mut known: Vec<&[u64]> = self.others.iter().map(|list| &list[before(list, position)..]).collect();
         let mut distinct: Vec<u32> = Vec::new();
         while at < chunk.end {
             let position = position_of(sorted[at]);
@@ -167,6 +168,7 @@ mod tests {
         fn vertices_are_unified_as_one_by_one(
             corners in prop::collection::vec(prop::array::uniform3(0i8..4), 12..60),
             scale in prop::sample::select(vec![1.0, 0.3]),
+            at_once in prop::sample::select(vec![1, 2, 7, 50, usize::MAX]),
         ) {
             let points: Vec<[f64; 3]> = corners.iter().map(|p| p.map(|x| scale * f64::from(x))).collect();
             let mut surface = Surface::new("soup", Points::from_xyz(&points));
@@ -187,9 +189,9 @@ mod tests {
             for threads in 1..=3 {
                 let unified = || {
                     let mut vertices = Vertices::new(&geometry, soup().point_ids);
-                    // The later ones may be one with those that came before.
-                    let (before, after) = found.split_at(found.len() / 3);
-                    let numbers = [before, after].map(|some| vertices.unify(some, &geometry)).concat();
+                    // Later ones may be one with those that came before.
+                    let some = found.chunks(at_once).map(|some| vertices.unify(some, &geometry));
+                    let numbers = some.collect::<Vec<_>>().concat();
                     (numbers, vertices.list)
                 };
                 let (numbers, unified) =
