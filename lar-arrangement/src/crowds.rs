@@ -291,5 +291,8 @@ mod tests {
         check(&[ball(5, &t(&[0.0; 3])), ball(0, &small())], 0.0, true);
         check(&[ball(5, &t(&[0.0; 3])), ball(0, &t(&[0.5, 0.1, 0.2]))], 0.0, true);
         check(&[ball(5, &t(&[0.0; 3])), ball(0, &s(&[9.0; 3])), ball(0, &small())], 0.0, true);
+        let many = [ball(5, &t(&[0.0; 3])), ball(5, &t(&[5.0, 0.0, 0.0])), ball(0, &small())];
+        assert!(many.iter().map(Surface::n_faces).sum::<usize>() >= MANY);
+        check(&many, 0.0, true);
     }
 }

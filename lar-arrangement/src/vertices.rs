@@ -5,7 +5,6 @@ use crate::counting::sorted_numbers;
 use crate::grid_points::{PointTable, hash};
 use crate::kernel::{Geometry, Vertex};
 use crate::parallel;
-use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Not known.
@@ -47,9 +46,18 @@ impl Vertices {
         let first: Vec<AtomicU32> = known.into_iter().map(AtomicU32::new).collect();
         let (n_chunks, range) = parallel::chunks(sorted.len(), parallel::LIGHT_CHUNK);
         parallel::map(n_chunks, |chunk| {
-            self.unify_chunk(&sorted, range(chunk), found, geometry, |i, number| {
-                first[i as usize].store(number, Relaxed);
-            });
+            // Those with one half of a hash are looked at where they begin, though they may end behind the chunk.
+            let begin = |k: usize| match k.checked_sub(1) {
+                Some(last) => {
+                    sorted.partition_point(|&entry| position_of(entry) <= position_of(sorted[last]))
+                }
+                None => 0,
+            };
+            let whole = begin(range(chunk).start)..begin(range(chunk).end);
+            let set = |i: u32, number| first[i as usize].store(number, Relaxed);
+            sorted[whole]
+                .chunk_by(|&a, &b| position_of(a) == position_of(b))
+                .for_each(|same| self.unify_position(same, found, geometry, set));
         });
         let is_first = |i: u32| first[i as usize].load(Relaxed).checked_sub(n_known) == Some(i);
         let firsts = parallel::select(found.len(), is_first);
@@ -75,49 +83,28 @@ impl Vertices {
         geometry.coincide(&self.list[p as usize], vertex).then_some(p)
     }
 
-    /// Those of a chunk of the sorted ones with positions that do not begin before it: calls `set` with each, and with its
-    /// number among the known ones or, behind them, that of the first one that is the same point.
-    fn unify_chunk(
-        &self,
-        sorted: &[u64],
-        chunk: Range<usize>,
-        found: &[Vertex],
-        geometry: &Geometry,
-        set: impl Fn(u32, u32),
-    ) {
-        let begins = |k: usize| k == 0 || position_of(sorted[k - 1]) != position_of(sorted[k]);
-        let Some(mut at) = chunk.clone().find(|&k| begins(k)) else { return };
-        let before = |list: &[u64], position: u64| list.partition_point(|&entry| entry < position);
-        let position = position_of(sorted[at]);
-        let mut known: Vec<&[u64]> = self.others.iter().map(|list| &list[before(list, position)..]).collect();
+    /// For some with the same half of a hash: calls `set` with each, and with its number among the known ones or, behind them, that
+    /// of the first one that is the same point. They are compared with each other, but few that differ have the same.
+    fn unify_position(&self, same: &[u64], found: &[Vertex], geometry: &Geometry, set: impl Fn(u32, u32)) {
+        let position = position_of(same[0]);
+        let here = |list: &'_ Vec<u64>| {
+            let begin = list.partition_point(|&entry| entry < position);
+            let entries = list[begin..].iter().take_while(|&&entry| position_of(entry) == position);
+            entries.map(|&entry| entry as u32).collect::<Vec<u32>>()
+        };
+        let known: Vec<u32> = self.others.iter().flat_map(here).collect();
+        let n_known = self.list.len() as u32;
         let mut distinct: Vec<u32> = Vec::new();
-        while at < chunk.end {
-            let position = position_of(sorted[at]);
-            let same = sorted[at..].iter().take_while(|&&entry| position_of(entry) == position);
-            distinct.clear();
-            // Those before in the lists are of positions before.
-            for list in &mut known {
-                let n_before = list.iter().take_while(|&&entry| entry < position).count();
-                *list = &list[n_before..];
+        for i in same.iter().map(|&entry| entry as u32) {
+            let vertex = &found[i as usize];
+            let is_same = |other: &Vertex| geometry.coincide(other, vertex);
+            let of_known = known.iter().copied().find(|&v| is_same(&self.list[v as usize]));
+            let of_new = || distinct.iter().copied().find(|&j| is_same(&found[j as usize]));
+            let number = of_known.or_else(|| of_new().map(|j| n_known + j));
+            if number.is_none() {
+                distinct.push(i);
             }
-            let here =
-                |list: &&[u64]| list.iter().take_while(|&&entry| position_of(entry) == position).count();
-            for &entry in same {
-                let (i, vertex) = (entry as u32, &found[entry as u32 as usize]);
-                let mut of_lists =
-                    known.iter().flat_map(|list| &list[..here(list)]).map(|&entry| entry as u32);
-                let number = of_lists.find(|&v| geometry.coincide(&self.list[v as usize], vertex));
-                let first =
-                    || distinct.iter().copied().find(|&j| geometry.coincide(&found[j as usize], vertex));
-                match number.or_else(|| first().map(|j| self.list.len() as u32 + j)) {
-                    Some(number) => set(i, number),
-                    None => {
-                        set(i, self.list.len() as u32 + i);
-                        distinct.push(i);
-                    }
-                }
-                at += 1;
-            }
+            set(i, number.unwrap_or(n_known + i));
         }
     }
 }
@@ -192,6 +179,13 @@ mod tests {
                     // Later ones may be one with those that came before.
                     let some = found.chunks(at_once).map(|some| vertices.unify(some, &geometry));
                     let numbers = some.collect::<Vec<_>>().concat();
+                    // Known ones behind more others than there are numbers.
+                    let point = geometry.point_vertex(0);
+                    for (vertex, &number) in found.iter().zip(&numbers).take(9) {
+                        let mut some = vec![point; vertices.list.len() + 1];
+                        some.push(*vertex);
+                        assert_eq!(vertices.unify(&some, &geometry).pop(), Some(number));
+                    }
                     (numbers, vertices.list)
                 };
                 let (numbers, unified) =
