@@ -21,11 +21,107 @@ pub enum Closure {
 /// Winding numbers of all solids in all cells, sparse by cells.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Windings {
-    /// Empty when there are no solids.
-    offsets: Vec<u32>,
-    /// Solid and winding number (parity for unoriented solids), where it is not zero; sorted by solid.
-    entries: Vec<(u32, i32)>,
+    /// Parities for unoriented solids. No cells when there are no solids.
+    rows: Rows,
     pub closure: Vec<Closure>,
+}
+
+/// For each cell solids and their numbers, where they are not zero; sorted by solid.
+#[derive(Clone, Debug, Default)]
+struct Rows {
+    /// Where the entries of a cell begin and end.
+    of_cell: Vec<[u32; 2]>,
+    entries: Vec<(u32, i32)>,
+}
+
+/// The same rows: in whatever order they lie.
+impl PartialEq for Rows {
+    fn eq(&self, other: &Self) -> bool {
+        self.of_cell.len() == other.of_cell.len()
+            && (0..self.of_cell.len()).all(|cell| self.of(cell) == other.of(cell))
+    }
+}
+
+impl Rows {
+    fn of(&self, cell: usize) -> &[(u32, i32)] {
+        let [begin, end] = self.of_cell[cell];
+        &self.entries[begin as usize..end as usize]
+    }
+
+    /// Makes what was added to the entries since `begin` the row of the next cell.
+    fn close(&mut self, begin: usize) {
+        self.of_cell.push([begin, self.entries.len()].map(|at| at as u32));
+    }
+
+    /// The numbers of all cells: those of the cell that a cell is entered from, changed by the wall between.
+    fn propagated(
+        n_cells: usize,
+        tree: &[(u32, u32, u32, i32)],
+        walls: &Walls,
+        value: impl Fn(&Jump) -> i32,
+    ) -> Self {
+        let mut out = Self { of_cell: vec![[0; 2]; n_cells], entries: Vec::new() };
+        for &(cell, from, wall, sign) in tree {
+            let [mut at, end] = out.of_cell[from as usize].map(|at| at as usize);
+            let begin = out.entries.len();
+            for jump in walls.of(wall) {
+                let same = out.entries[at..end].partition_point(|e| e.0 < jump.solid);
+                out.entries.extend_from_within(at..at + same);
+                at += same;
+                let before = out.entries[at..end].first().filter(|e| e.0 == jump.solid).map(|e| e.1);
+                at += usize::from(before.is_some());
+                let number = before.unwrap_or(0) + sign * value(jump);
+                if number != 0 {
+                    out.entries.push((jump.solid, number));
+                }
+            }
+            out.entries.extend_from_within(at..end);
+            out.of_cell[cell as usize] = [begin, out.entries.len()].map(|at| at as u32);
+        }
+        out
+    }
+
+    /// The solids whose numbers, reduced, differ on the two sides of some wall by something else than its jump.
+    fn inconsistent(
+        &self,
+        walls: &Walls,
+        value: impl Fn(&Jump) -> i32 + Sync + Send,
+        reduced: impl Fn(i32) -> i32 + Sync + Send,
+    ) -> Vec<u32> {
+        let (n_chunks, range) = parallel::chunks(walls.cells.len(), WALLS_A_CHUNK);
+        let parts = parallel::map(n_chunks, |chunk| {
+            let mut out = Vec::new();
+            for wall in range(chunk) {
+                let [front, back] = walls.cells[wall].map(|cell| self.of(cell as usize));
+                let mut sides = [front, back];
+                let mut compare = |sides: [&[(u32, i32)]; 2], solid: u32, jump: i32| {
+                    let [before, after] = sides.map(|side| number_of(side, solid));
+                    if reduced(after - before - jump) != 0 {
+                        out.push(solid);
+                    }
+                };
+                for jump in walls.of(wall as u32) {
+                    let heads = sides.map(|side| &side[..side.partition_point(|e| e.0 < jump.solid)]);
+                    let rest = [0, 1].map(|i| &sides[i][heads[i].len()..]);
+                    if heads[0] != heads[1] {
+                        heads.concat().iter().for_each(|e| compare(heads, e.0, 0));
+                    }
+                    compare(rest, jump.solid, value(jump));
+                    sides = rest
+                        .map(|side| &side[usize::from(side.first().is_some_and(|e| e.0 == jump.solid))..]);
+                }
+                if sides[0] != sides[1] {
+                    sides.concat().iter().for_each(|e| compare(sides, e.0, 0));
+                }
+            }
+            out
+        });
+        parts.concat()
+    }
+}
+
+fn number_of(row: &[(u32, i32)], solid: u32) -> i32 {
+    row.binary_search_by_key(&solid, |e| e.0).map_or(0, |at| row[at].1)
 }
 
 /// A face is compared with so many walls before it.
@@ -33,6 +129,9 @@ const RECENT: usize = 4;
 
 /// Faces a chunk of work.
 const FACES_A_CHUNK: usize = 1 << 12;
+
+/// Walls a chunk of work.
+const WALLS_A_CHUNK: usize = 1 << 10;
 
 /// The change of winding numbers across a face, from front to back: solid, signed sum, sum modulo 2.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -122,55 +221,50 @@ impl Windings {
     pub(crate) fn new(n_cells: usize, n_solids: usize, walls: &Walls) -> Self {
         let tree = spanning_tree(n_cells, &walls.cells);
         let mut closure = vec![Closure::Closed; n_solids];
-        let mut windings = propagate(n_cells, &tree, walls, |j| j.signed);
-        for (cells, jumps) in walls.iter() {
-            check_wall(&windings, cells, jumps, |j| j.signed, |a| a, &mut closure, Closure::Unoriented);
+        let rows = Rows::propagated(n_cells, &tree, walls, |j| j.signed);
+        for solid in rows.inconsistent(walls, |j| j.signed, |a| a) {
+            closure[solid as usize] = Closure::Unoriented;
         }
-        if closure.contains(&Closure::Unoriented) {
-            let odd = |j: &Jump| i32::from(j.odd && closure[j.solid as usize] == Closure::Unoriented);
-            let parity = propagate(n_cells, &tree, walls, odd);
-            let mut open = closure.clone();
-            for (cells, jumps) in walls.iter() {
-                check_wall(&parity, cells, jumps, odd, |a| a.rem_euclid(2), &mut open, Closure::Open);
-            }
-            for (cell, row) in windings.iter_mut().enumerate() {
-                row.retain(|e| closure[e.0 as usize] == Closure::Closed);
-                let unoriented = parity[cell].iter().filter(|e| open[e.0 as usize] == Closure::Unoriented);
-                row.extend(unoriented.map(|e| (e.0, e.1.rem_euclid(2))).filter(|e| e.1 != 0));
-                row.sort_unstable();
-            }
-            closure = open;
+        if !closure.contains(&Closure::Unoriented) {
+            return Self { rows, closure };
         }
-        let mut offsets = vec![0];
-        let mut entries = Vec::new();
-        for row in windings {
-            entries.extend(row);
-            offsets.push(entries.len() as u32);
+        let odd = |j: &Jump| i32::from(j.odd && closure[j.solid as usize] == Closure::Unoriented);
+        let parities = Rows::propagated(n_cells, &tree, walls, odd);
+        let open = parities.inconsistent(walls, odd, |a| a.rem_euclid(2));
+        open.into_iter().for_each(|solid| closure[solid as usize] = Closure::Open);
+        let mut out = Rows::default();
+        for cell in 0..n_cells {
+            let begin = out.entries.len();
+            let closed = rows.of(cell).iter().copied().filter(|e| closure[e.0 as usize] == Closure::Closed);
+            let unoriented =
+                parities.of(cell).iter().filter(|e| closure[e.0 as usize] == Closure::Unoriented);
+            let odd = unoriented.map(|e| (e.0, e.1.rem_euclid(2))).filter(|e| e.1 != 0);
+            out.entries.extend(closed.chain(odd));
+            out.entries[begin..].sort_unstable();
+            out.close(begin);
         }
-        Self { offsets, entries, closure }
+        Self { rows: out, closure }
     }
 
     /// For new cells their old ones: the same numbers, and all zero where there is no old one.
     pub(crate) fn of_some(&self, old_cells: &[Option<usize>]) -> Self {
-        let mut out = Self { offsets: vec![0], entries: Vec::new(), closure: self.closure.clone() };
+        let mut rows = Rows::default();
         for old in old_cells {
-            out.entries.extend(old.iter().flat_map(|&old| self.of_cell(old)));
-            out.offsets.push(out.entries.len() as u32);
+            let begin = rows.entries.len();
+            rows.entries.extend(old.iter().flat_map(|&old| self.of_cell(old)));
+            rows.close(begin);
         }
-        out
+        Self { rows, closure: self.closure.clone() }
     }
 
     /// Number of cells; of those of the plane only where there are regions.
     pub(crate) fn n_cells(&self) -> usize {
-        self.offsets.len().saturating_sub(1)
+        self.rows.of_cell.len()
     }
 
     /// The solids with a winding number other than zero in a cell.
     pub(crate) fn of_cell(&self, cell: usize) -> &[(u32, i32)] {
-        if self.closure.is_empty() {
-            return &[];
-        }
-        &self.entries[self.offsets[cell] as usize..self.offsets[cell + 1] as usize]
+        if self.closure.is_empty() { &[] } else { self.rows.of(cell) }
     }
 }
 
@@ -210,50 +304,4 @@ fn spanning_tree(n_cells: usize, cells_of_wall: &[[u32; 2]]) -> Vec<(u32, u32, u
         }
     }
     tree
-}
-
-fn propagate(
-    n_cells: usize,
-    tree: &[(u32, u32, u32, i32)],
-    walls: &Walls,
-    value: impl Fn(&Jump) -> i32,
-) -> Vec<Vec<(u32, i32)>> {
-    let mut rows: Vec<Vec<(u32, i32)>> = vec![Vec::new(); n_cells];
-    for &(cell, from, wall, sign) in tree {
-        let mut row = rows[from as usize].clone();
-        for jump in walls.of(wall) {
-            let change = sign * value(jump);
-            match row.binary_search_by_key(&jump.solid, |e| e.0) {
-                _ if change == 0 => {}
-                Ok(at) if row[at].1 + change == 0 => {
-                    row.remove(at);
-                }
-                Ok(at) => row[at].1 += change,
-                Err(at) => row.insert(at, (jump.solid, change)),
-            }
-        }
-        rows[cell as usize] = row;
-    }
-    rows
-}
-
-/// Marks the solids whose numbers on the two sides of a wall differ by something else than its jump.
-fn check_wall(
-    rows: &[Vec<(u32, i32)>],
-    [front, back]: [u32; 2],
-    jumps: &[Jump],
-    value: impl Fn(&Jump) -> i32,
-    reduced: impl Fn(i32) -> i32,
-    closure: &mut [Closure],
-    mark: Closure,
-) {
-    let (a, b) = (&rows[front as usize], &rows[back as usize]);
-    let in_row =
-        |row: &[(u32, i32)], solid: u32| row.binary_search_by_key(&solid, |e| e.0).map_or(0, |i| row[i].1);
-    let jump = |solid: u32| jumps.binary_search_by_key(&solid, |j| j.solid).map_or(0, |i| value(&jumps[i]));
-    for solid in a.iter().chain(b).map(|e| e.0).chain(jumps.iter().map(|j| j.solid)) {
-        if reduced(in_row(b, solid) - in_row(a, solid) - jump(solid)) != 0 {
-            closure[solid as usize] = mark;
-        }
-    }
 }
