@@ -36,6 +36,7 @@ mod parallel;
 mod pipeline;
 pub mod planar;
 mod polygon;
+mod positions;
 mod progress;
 mod rays;
 mod simplify;

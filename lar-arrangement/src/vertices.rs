@@ -1,10 +1,10 @@
 //! Vertices by definition: different definitions of one point become one vertex, by exact equality. Many are unified at
 //! once, by all threads.
 
-use crate::counting::sorted_numbers;
-use crate::grid_points::{PointTable, hash};
+use crate::grid_points::PointTable;
 use crate::kernel::{Geometry, Vertex};
 use crate::parallel;
+use crate::positions::{each_position, position_of, sorted_by_position};
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Not known.
@@ -30,7 +30,7 @@ impl Vertices {
         let mut others = Vec::new();
         if !geometry.is_on_grid() {
             let rational = parallel::select(n, |p| geometry.grid_point(p).is_none());
-            others.push(sorted_by_position(&list, &rational));
+            others.push(sorted_vertices(&list, &rational));
         }
         Self { list, grid_points, others }
     }
@@ -40,25 +40,12 @@ impl Vertices {
     pub(crate) fn unify(&mut self, found: &[Vertex], geometry: &Geometry) -> Vec<u32> {
         let known = parallel::map_light(found.len(), |i| self.on_grid(&found[i], geometry).unwrap_or(NONE));
         let unknown = parallel::select(found.len(), |i| known[i as usize] == NONE);
-        let sorted = sorted_by_position(found, &unknown);
+        let sorted = sorted_vertices(found, &unknown);
         let n_known = self.list.len() as u32;
         // A vertex that is not known is, counted behind the known ones, the first that is the same point.
         let first: Vec<AtomicU32> = known.into_iter().map(AtomicU32::new).collect();
-        let (n_chunks, range) = parallel::chunks(sorted.len(), parallel::LIGHT_CHUNK);
-        parallel::map(n_chunks, |chunk| {
-            // Those with one half of a hash are looked at where they begin, though they may end behind the chunk.
-            let begin = |k: usize| match k.checked_sub(1) {
-                Some(last) => {
-                    sorted.partition_point(|&entry| position_of(entry) <= position_of(sorted[last]))
-                }
-                None => 0,
-            };
-            let whole = begin(range(chunk).start)..begin(range(chunk).end);
-            let set = |i: u32, number| first[i as usize].store(number, Relaxed);
-            sorted[whole]
-                .chunk_by(|&a, &b| position_of(a) == position_of(b))
-                .for_each(|same| self.unify_position(same, found, geometry, set));
-        });
+        let set = |i: u32, number| first[i as usize].store(number, Relaxed);
+        each_position(&sorted, |same| self.unify_position(same, found, geometry, set));
         let is_first = |i: u32| first[i as usize].load(Relaxed).checked_sub(n_known) == Some(i);
         let firsts = parallel::select(found.len(), is_first);
         let number = parallel::atomic_zeros(found.len());
@@ -109,21 +96,9 @@ impl Vertices {
     }
 }
 
-/// Half of the hash of a position, above the number of a vertex.
-fn keyed(vertex: &Vertex, number: u32) -> u64 {
-    // Adding zero makes −0 and 0 one.
-    position_of(hash(vertex.at.map(|x| (x + 0.0).to_bits() as i64))) | u64::from(number)
-}
-
-/// An entry without its number.
-fn position_of(entry: u64) -> u64 {
-    entry >> 32 << 32
-}
-
-/// Some vertices of a list by their positions, those of one position in their order.
-fn sorted_by_position(list: &[Vertex], some: &[u32]) -> Vec<u64> {
-    let keys = parallel::map_light(some.len(), |k| keyed(&list[some[k] as usize], some[k]));
-    sorted_numbers(&keys, u64::BITS, |_| ())
+/// Some vertices of a list by their positions.
+fn sorted_vertices(list: &[Vertex], some: &[u32]) -> Vec<u64> {
+    sorted_by_position(some.len(), |k| some[k as usize], |v| list[v as usize].at)
 }
 
 #[cfg(test)]

@@ -19,6 +19,7 @@ use crate::charts::Charts;
 use crate::grid_points::PointTable;
 use crate::half_edges::MANY;
 use crate::kernel::Geometry;
+use crate::parallel;
 use crate::soup::{Placed, Soup};
 use crate::stars::Stars;
 use crate::vector::distance;
@@ -168,7 +169,7 @@ pub(crate) fn on_planes(input: &Input, scan: &Scan, report: &mut Report) -> Opti
 }
 
 fn renumbered(point_of: &[Vec<u32>], new_id: &[u32]) -> Vec<Vec<u32>> {
-    point_of.iter().map(|of| of.iter().map(|&p| new_id[p as usize]).collect()).collect()
+    parallel::map(point_of.len(), |surface| point_of[surface].iter().map(|&p| new_id[p as usize]).collect())
 }
 
 /// The tolerances of points with new numbers.

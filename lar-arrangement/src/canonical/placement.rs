@@ -5,10 +5,10 @@ use super::{Report, carried, renumbered};
 use crate::grid_points::PointTable;
 use crate::kernel::{CanonicalPoints, Geometry, Plane, RationalPoint, Sign, dominant_axis};
 use crate::parallel;
+use crate::positions::firsts;
 use crate::soup::{Placed, Soup};
 use crate::vector::distance;
 use lar_core::Cells;
-use rustc_hash::{FxBuildHasher, FxHashMap};
 
 /// The vertices of a soup with the corners of the clusters on their planes, and the plane of each face.
 pub(super) fn on_planes(
@@ -33,15 +33,10 @@ pub(super) fn on_planes(
         });
         placed(at(p), &candidates, clusters)
     });
-    let mut places = concerned.iter().zip(places).peekable();
-    let mut placement = Placement::of(n_points);
-    for p in 0..n_points as u32 {
-        let moved = places.next_if(|place| *place.0 == p);
-        let place = moved.map_or_else(|| Place::grid(at(p)), |place| place.1);
+    for (&p, place) in concerned.iter().zip(&places) {
         report.note(distance(at(p).map(|x| x as f64), place.rounded));
-        placement.push(place);
     }
-    placement.finished(soup, planes, plane_of_face)
+    Placement::new(soup, &concerned, places).finished(planes, plane_of_face)
 }
 
 /// The clusters that matter: those that move corners, and those that share corners with them, directly or through
@@ -135,72 +130,108 @@ fn nearest_on(at: [i64; 3], planes: &[&Plane]) -> Option<RationalPoint> {
     RationalPoint::on_planes([&a, &b, &c])
 }
 
-/// The points in their new places, equal ones unified.
-struct Placement {
-    /// New point of each old one.
-    new_id: Vec<u32>,
+/// The points in their new places.
+struct Placement<'a> {
+    soup: &'a Soup,
+    /// Those of points that clusters are at.
     places: Vec<Place>,
-    /// The last new point with a rounded position, and the one before each; itself when there is none.
-    last_at: FxHashMap<[u64; 3], u32>,
-    before: Vec<u32>,
+    /// For each point the number of its place, counted from 1, or 0: it stays on the grid.
+    place_of: Vec<u32>,
 }
 
-impl Placement {
-    /// Room for so many points.
-    fn of(n: usize) -> Self {
-        Self {
-            new_id: Vec::with_capacity(n),
-            places: Vec::with_capacity(n),
-            last_at: FxHashMap::with_capacity_and_hasher(n, FxBuildHasher),
-            before: Vec::with_capacity(n),
-        }
+impl<'a> Placement<'a> {
+    fn new(soup: &'a Soup, concerned: &[u32], places: Vec<Place>) -> Self {
+        let mut place_of = vec![0; soup.geometry.n_points()];
+        concerned.iter().zip(1..).for_each(|(&p, place)| place_of[p as usize] = place);
+        Self { soup, places, place_of }
     }
 
-    fn push(&mut self, place: Place) {
-        let new = self.places.len() as u32;
-        let last = self.last_at.entry(place.rounded.map(|x| (x + 0.0).to_bits())).or_insert(new);
-        let mut id = *last;
-        while id != new && !self.places[id as usize].point.widened::<5>().equals(&place.point.widened()) {
-            let before = self.before[id as usize];
-            id = if before == id { new } else { before };
-        }
-        if id == new {
-            self.before.push(std::mem::replace(last, new));
-            self.places.push(place);
-        } else {
-            let planes = &mut self.places[id as usize].on;
-            planes.extend(place.on);
-            planes.sort_unstable();
-            planes.dedup();
-        }
-        self.new_id.push(id);
+    fn place(&self, p: u32) -> Option<&Place> {
+        self.place_of[p as usize].checked_sub(1).map(|place| &self.places[place as usize])
     }
 
-    fn finished(self, soup: &Soup, planes: Vec<Plane>, plane_of_face: Vec<Vec<Option<u32>>>) -> Placed {
-        let mut canonical = CanonicalPoints { planes, ..CanonicalPoints::default() };
-        let n = self.places.len();
-        let (mut points, mut point_ids) = (Vec::with_capacity(n), PointTable::with_capacity(n));
-        for (Place { point, rounded, on }, id) in self.places.iter().zip(0..) {
-            let nearest = rounded.map(|x| x.round() as i64);
-            points.push(nearest);
-            debug_assert!(on.is_sorted(), "planes are looked for by bisection");
-            canonical.planes_of_point.push(on);
-            if nearest.map(|x| x as f64) == *rounded
-                && RationalPoint::grid(nearest).widened::<5>().equals(&point.widened())
-            {
-                point_ids.insert(nearest, id, |id| points[id as usize]);
-                canonical.entry.push(0);
+    fn rounded(&self, p: u32) -> [f64; 3] {
+        let on_grid = || self.soup.geometry.nearest_grid_point(p).map(|x| x as f64);
+        self.place(p).map_or_else(on_grid, |place| place.rounded)
+    }
+
+    fn point(&self, p: u32) -> RationalPoint {
+        let on_grid = || RationalPoint::grid(self.soup.geometry.nearest_grid_point(p));
+        self.place(p).map_or_else(on_grid, |place| place.point)
+    }
+
+    fn are_same(&self, p: u32, q: u32) -> bool {
+        self.rounded(p) == self.rounded(q) && self.point(p).widened::<5>().equals(&self.point(q).widened())
+    }
+
+    fn is_on_grid(&self, p: u32) -> bool {
+        let nearest = self.nearest(p);
+        let is_there = |place: &Place| {
+            nearest.map(|x| x as f64) == place.rounded
+                && RationalPoint::grid(nearest).widened::<5>().equals(&place.point.widened())
+        };
+        self.place(p).is_none_or(is_there)
+    }
+
+    fn nearest(&self, p: u32) -> [i64; 3] {
+        self.rounded(p).map(|x| x.round() as i64)
+    }
+
+    /// The planes of each of some points: those that it was put on, and those of the points that are one with it.
+    fn planes_of(&self, distinct: &[u32], first: &[u32]) -> Cells {
+        let on = |p: u32| self.place(p).map_or(&[][..], |place| &place.on);
+        let repeated = parallel::select(first.len(), |p| first[p as usize] != p);
+        let of_others =
+            repeated.iter().flat_map(|&p| on(p).iter().map(move |&plane| (first[p as usize], plane)));
+        let mut of_others: Vec<(u32, u32)> = of_others.collect();
+        of_others.sort_unstable();
+        let mut rest = &of_others[..];
+        let mut planes = Cells::with_capacity(distinct.len(), self.places.len());
+        for &p in distinct {
+            let (others, after) = rest.split_at(rest.partition_point(|other| other.0 <= p));
+            rest = after;
+            if others.is_empty() {
+                planes.push(on(p));
             } else {
-                canonical.rational.push(*point);
-                canonical.entry.push(canonical.rational.len() as u32);
+                let mut all: Vec<u32> =
+                    on(p).iter().copied().chain(others.iter().map(|other| other.1)).collect();
+                all.sort_unstable();
+                all.dedup();
+                planes.push(&all);
             }
         }
+        planes
+    }
+
+    /// Equal points unified. O(n) expected.
+    fn finished(self, planes: Vec<Plane>, plane_of_face: Vec<Vec<Option<u32>>>) -> Placed {
+        let n_points = self.place_of.len();
+        let first = firsts(n_points, |p| self.rounded(p), |p, q| self.are_same(p, q));
+        let distinct = parallel::select(n_points, |p| first[p as usize] == p);
+        let mut number = vec![0; n_points];
+        distinct.iter().zip(0..).for_each(|(&p, id)| number[p as usize] = id);
+        let new_id = parallel::map_light(n_points, |p| number[first[p] as usize]);
+        let points = parallel::map_light(distinct.len(), |id| self.nearest(distinct[id]));
+        let on_grid = parallel::map_light(distinct.len(), |id| self.is_on_grid(distinct[id]));
+        let rational = parallel::select(distinct.len(), |id| !on_grid[id as usize]);
+        let mut entry = vec![0; distinct.len()];
+        rational.iter().zip(1..).for_each(|(&id, number)| entry[id as usize] = number);
+        let mut point_ids = PointTable::with_capacity(distinct.len() - rational.len());
+        for id in (0..distinct.len() as u32).filter(|&id| on_grid[id as usize]) {
+            point_ids.insert(points[id as usize], id, |id| points[id as usize]);
+        }
+        let canonical = CanonicalPoints {
+            entry,
+            rational: parallel::map_light(rational.len(), |i| self.point(distinct[rational[i] as usize])),
+            planes,
+            planes_of_point: self.planes_of(&distinct, &first),
+        };
         Placed {
-            grid: soup.grid,
+            grid: self.soup.grid,
             geometry: Geometry::canonical(points, canonical),
             point_ids,
-            point_of: renumbered(&soup.point_of, &self.new_id),
-            tolerances: carried(&soup.tolerances, &self.new_id),
+            point_of: renumbered(&self.soup.point_of, &new_id),
+            tolerances: carried(&self.soup.tolerances, &new_id),
             plane_of_face,
         }
     }
