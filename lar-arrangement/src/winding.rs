@@ -6,6 +6,7 @@
 //! consistently); otherwise the surface is open and bounds nothing.
 
 use crate::parallel;
+use std::ops::Range;
 
 /// What a surface bounds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,7 +31,7 @@ pub(crate) struct Windings {
 #[derive(Clone, Debug, Default)]
 struct Rows {
     /// Where the entries of a cell begin and end.
-    of_cell: Vec<[u32; 2]>,
+    of_cell: Vec<Range<usize>>,
     entries: Vec<(u32, i32)>,
 }
 
@@ -44,13 +45,12 @@ impl PartialEq for Rows {
 
 impl Rows {
     fn of(&self, cell: usize) -> &[(u32, i32)] {
-        let [begin, end] = self.of_cell[cell];
-        &self.entries[begin as usize..end as usize]
+        &self.entries[self.of_cell[cell].clone()]
     }
 
     /// Makes what was added to the entries since `begin` the row of the next cell.
     fn close(&mut self, begin: usize) {
-        self.of_cell.push([begin, self.entries.len()].map(|at| at as u32));
+        self.of_cell.push(begin..self.entries.len());
     }
 
     /// The numbers of all cells: those of the cell that a cell is entered from, changed by the wall between.
@@ -60,9 +60,9 @@ impl Rows {
         walls: &Walls,
         value: impl Fn(&Jump) -> i32,
     ) -> Self {
-        let mut out = Self { of_cell: vec![[0; 2]; n_cells], entries: Vec::new() };
+        let mut out = Self { of_cell: vec![0..0; n_cells], entries: Vec::new() };
         for &(cell, from, wall, sign) in tree {
-            let [mut at, end] = out.of_cell[from as usize].map(|at| at as usize);
+            let Range { start: mut at, end } = out.of_cell[from as usize].clone();
             let begin = out.entries.len();
             for jump in walls.of(wall) {
                 let same = out.entries[at..end].partition_point(|e| e.0 < jump.solid);
@@ -76,7 +76,7 @@ impl Rows {
                 }
             }
             out.entries.extend_from_within(at..end);
-            out.of_cell[cell as usize] = [begin, out.entries.len()].map(|at| at as u32);
+            out.of_cell[cell as usize] = begin..out.entries.len();
         }
         out
     }
@@ -114,6 +114,9 @@ impl Rows {
                     sides.concat().iter().for_each(|e| compare(sides, e.0, 0));
                 }
             }
+            // Where a surface is open many walls say so.
+            out.sort_unstable();
+            out.dedup();
             out
         });
         parts.concat()
