@@ -42,7 +42,8 @@ pub(crate) fn each_position(sorted: &[u64], f: impl Fn(&[u64]) + Sync + Send) {
     });
 }
 
-/// For 0..n the number of the first one that is the same, one of those at its position.
+/// For 0..n the number of the first one that is the same, one of those at its position. O(n) expected: each is compared with
+/// the different ones of its position, and few that differ have the same half of a hash.
 pub(crate) fn firsts(
     n: usize,
     at: impl Fn(u32) -> [f64; 3] + Sync + Send,

@@ -190,6 +190,7 @@ impl<'a> Placement<'a> {
         for &p in distinct {
             let (others, after) = rest.split_at(rest.partition_point(|other| other.0 <= p));
             rest = after;
+            debug_assert!(on(p).is_sorted(), "planes are looked for by bisection");
             if others.is_empty() {
                 planes.push(on(p));
             } else {
