@@ -32,16 +32,20 @@ pub(crate) fn facets_in(soup: &Soup, targets: &[Aabb]) -> Vec<Vec<u32>> {
     let places =
         parallel::map_light(soup.geometry.n_points(), |p| cells.place(soup.geometry.position(p as u32)));
     let place = |p: u32| places[p as usize];
+    let are_triangles = soup.are_triangles();
     let (n_chunks, range) = parallel::chunks(soup.n_facets(), FACETS_A_CHUNK);
     let parts = parallel::map(n_chunks, |chunk| {
         let mut found = Vec::new();
         for facet in range(chunk) {
             let facet = facet as u32;
             let [a, b, c] = soup.geometry.base(facet).map(place);
-            let mut block = a.around(b).around(c);
-            if !soup.are_triangles() {
-                let corners =
-                    soup.facet_edges[facet as usize].iter().map(|&code| place(soup.directed(code)[0]));
+            if are_triangles && !a.is_near_targets() && a.is_close_to(b) && a.is_close_to(c) {
+                continue;
+            }
+            let mut block = a.block().around(b.block()).around(c.block());
+            if !are_triangles {
+                let edges = soup.facet_edges[facet as usize].iter();
+                let corners = edges.map(|&code| place(soup.directed(code)[0]).block());
                 block = corners.fold(block, Block::around);
             }
             if cells.have_targets(block) {
@@ -84,6 +88,30 @@ struct Cells {
     scale: f64,
     /// The number of targets in the cells before column y and row z: every target counts in each cell that it is in.
     sums: Vec<u32>,
+    /// The places of points in each cell.
+    places: Vec<Place>,
+}
+
+/// The cell of a point: its row z, its column y, and whether targets are *near*, from one cell before it along each axis to
+/// two behind, a byte each.
+#[derive(Clone, Copy)]
+struct Place(u32);
+
+impl Place {
+    fn block(self) -> Block {
+        let [z, y, ..] = self.0.to_le_bytes();
+        Block { first: [y, z], last: [y, z] }
+    }
+
+    fn is_near_targets(self) -> bool {
+        self.0 >> 16 != 0
+    }
+
+    /// Whether the cell of another is from one cell before this one's to two behind.
+    fn is_close_to(self, other: Self) -> bool {
+        // What is less by more than one borrows from the bits above.
+        (other.0 as u16).wrapping_sub(self.0 as u16).wrapping_add(0x0101) & 0xfcfc == 0
+    }
 }
 
 /// The first and the last cells along each axis.
@@ -110,9 +138,10 @@ impl Cells {
             lo: [all.lo[1], all.lo[2]],
             scale: (CELLS - 3) as f64 / extent,
             sums: vec![0; (CELLS + 1) * (CELLS + 1)],
+            places: Vec::new(),
         };
         for target in targets {
-            let Block { first, last } = cells.place(target.lo).around(cells.place(target.hi));
+            let Block { first, last } = cells.cell(target.lo).around(cells.cell(target.hi));
             for y in first[0]..=last[0] {
                 for z in first[1]..=last[1] {
                     cells.sums[Self::index(y.into(), z.into()) + CELLS + 2] += 1;
@@ -126,6 +155,12 @@ impl Cells {
                     cells.sums[at - 1] + cells.sums[at - CELLS - 1] - cells.sums[at - CELLS - 2];
             }
         }
+        let of_cell = |y: u8, z: u8| {
+            let last = |cell: u8| (cell + 2).min(CELLS as u8 - 1);
+            let near = Block { first: [y, z].map(|cell| cell.saturating_sub(1)), last: [y, z].map(last) };
+            Place(u32::from_le_bytes([z, y, u8::from(cells.have_targets(near)), 0]))
+        };
+        cells.places = (0..CELLS as u8).flat_map(|y| (0..CELLS as u8).map(move |z| of_cell(y, z))).collect();
         cells
     }
 
@@ -133,8 +168,13 @@ impl Cells {
         y * (CELLS + 1) + z
     }
 
+    fn place(&self, at: [f64; 3]) -> Place {
+        let [y, z] = self.cell(at).first.map(usize::from);
+        self.places[y * CELLS + z]
+    }
+
     /// The cell of a point. What is farther right is in no cell farther left, whatever is rounded.
-    fn place(&self, at: [f64; 3]) -> Block {
+    fn cell(&self, at: [f64; 3]) -> Block {
         let cell = [0, 1].map(|k| {
             // Only what is beyond all targets is in the first cell or the last.
             ((at[k + 1] - self.lo[k]) * self.scale + 1.0).clamp(0.0, (CELLS - 1) as f64) as u8

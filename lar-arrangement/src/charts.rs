@@ -78,13 +78,13 @@ impl Shared {
         Self(number(0) | number(1) << FIELD | number(2) << (2 * FIELD))
     }
 
-    /// Those that are shared with others, too. Without branches: voxels are many.
+    /// Those that are shared with others, too. Without branches, and of operations that processors have for several numbers at
+    /// once: voxels are many.
     pub(crate) fn with(self, other: Self) -> Self {
-        // A field that differs carries into the bit above it.
-        let differ = ((self.0 ^ other.0) + NONE * ALL) & (ALL << BITS);
-        let none = differ - (differ >> BITS);
-        let both = self.0 != 0 && other.0 != 0;
-        Self(self.0 | other.0 | if both { none } else { 0 })
+        // A field that is not zero carries into the bit above it.
+        let carry = |fields: u64| fields + NONE * ALL;
+        let differ = carry(self.0 ^ other.0) & carry(self.0) & carry(other.0) & (ALL << BITS);
+        Self(self.0 | other.0 | (differ - (differ >> BITS)))
     }
 
     /// Whether there are facets that are not all in one chart.
@@ -175,14 +175,22 @@ impl Charts {
 
     /// Whether both facets are in one chart.
     pub(crate) fn are_one(&self, f: u32, g: u32) -> bool {
-        !self.all(f).with(self.all(g)).is_nothing()
+        let [at_f, at_g] = [f, g].map(|f| self.region[f as usize]);
+        let all = self.of_region[at_f as usize];
+        // Most neighbours are of one region.
+        let shared = if at_f == at_g { all } else { all.with(self.of_region[at_g as usize]) };
+        !shared.is_nothing()
     }
 }
 
 /// For each facet the axes along which it looks, 1 << 2 · axis, twice that when it looks down; 0 for those that are no
 /// triangles, and nothing along axes where they are thin.
 fn looks(soup: &Soup, share: f64, margin: f64) -> Vec<u8> {
-    let mut looks = parallel::map_light(soup.n_facets(), |f| look(soup, f as u32, share, margin));
+    let are_triangles = soup.are_triangles();
+    let mut looks = parallel::map_light(soup.n_facets(), |f| {
+        let is_triangle = are_triangles || soup.is_triangle(f as u32);
+        if is_triangle { look(soup, f as u32, share, margin) } else { 0 }
+    });
     if !parallel::all(soup.edges.len(), |edge| !soup.facets_of_edge[edge].contains(&MANY)) {
         let has_many = |code: &u32| soup.facets_of_edge[(code / 2) as usize].contains(&MANY);
         for (look, edges) in looks.iter_mut().zip(soup.facet_edges.iter()) {
@@ -194,10 +202,8 @@ fn looks(soup: &Soup, share: f64, margin: f64) -> Vec<u8> {
     looks
 }
 
+/// Where a triangle looks.
 fn look(soup: &Soup, facet: u32, share: f64, margin: f64) -> u8 {
-    if !soup.is_triangle(facet) {
-        return 0;
-    }
     let [a, b, c] = soup.geometry.base(facet).map(|p| soup.geometry.position(p));
     let length = |p: [f64; 3], q: [f64; 3]| (0..3).map(|k| (p[k] - q[k]).abs()).sum::<f64>();
     let longest = length(a, b).max(length(b, c)).max(length(c, a));

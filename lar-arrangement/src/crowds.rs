@@ -219,31 +219,34 @@ impl Voxels {
     /// Whether a facet that begins in a voxel may reach into one that others reach into. O(n).
     fn crowded(&self, marks: &mut [Shared]) -> Vec<bool> {
         let (row, layer) = (self.size[0], self.size[0] * self.size[1]);
-        // From the end, so that what is read has not changed yet.
-        parallel::each(marks.chunks_mut(layer).collect(), |layer| {
+        parallel::each(marks.chunks_mut(layer).collect(), |marks| {
             for step in [1, row] {
-                (step..layer.len()).rev().for_each(|i| layer[i] = layer[i].with(layer[i - step]));
+                let lower = marks.to_vec();
+                join(&mut marks[step..], &lower, Shared::with);
             }
         });
-        let lower: Vec<&[Shared]> = marks.chunks(layer).collect();
-        let mut is_crowded = vec![false; marks.len()];
-        parallel::each(is_crowded.chunks_mut(layer).enumerate().collect(), |(z, layer)| {
-            // The upper of two layers, with what begins in the lower and reaches into it.
-            let add = |layer: &mut [bool], z: usize| {
-                let Some(upper) = lower.get(z) else { return };
-                let below = if z == 0 { upper } else { lower[z - 1] };
-                for ((is_crowded, &a), &b) in layer.iter_mut().zip(*upper).zip(below) {
-                    *is_crowded |= a.with(b).is_nothing();
-                }
-            };
-            add(layer, z);
-            add(layer, z + 1);
+        let layers: Vec<&[Shared]> = marks.chunks(layer).collect();
+        // What others reach into: with what begins in the layer below and reaches into it. Then spread back.
+        let mut met = vec![false; marks.len()];
+        parallel::each(met.chunks_mut(layer).enumerate().collect(), |(z, met)| {
+            let lower = layers[z.saturating_sub(1)];
+            for ((met, &mark), &lower) in met.iter_mut().zip(layers[z]).zip(lower) {
+                *met = mark.with(lower).is_nothing();
+            }
             for step in [1, row] {
-                (step..layer.len()).for_each(|i| layer[i - step] |= layer[i]);
+                let upper = met[step..].to_vec();
+                join(met, &upper, |a, b| a | b);
             }
         });
-        is_crowded
+        let upper = met[layer..].to_vec();
+        join(&mut met, &upper, |a, b| a | b);
+        met
     }
+}
+
+/// Joins each item with another, as long as there are others.
+fn join<T: Copy>(items: &mut [T], others: &[T], joined: impl Fn(T, T) -> T) {
+    items.iter_mut().zip(others).for_each(|(item, &other)| *item = joined(*item, other));
 }
 
 #[cfg(test)]

@@ -1,15 +1,12 @@
 //! Stage 1d: half-edges with the same ends are one edge, found by a counting sort over the smaller ends.
 
-use crate::boxes::bits_of;
 use crate::parallel;
 use lar_core::Cells;
+use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Among so few half-edges those of one edge are looked for one by one.
 const FEW: usize = 24;
-
-/// Half-edges a chunk of work, a multiple of 64.
-const CHUNK: usize = 1 << 13;
 
 /// Half-edges by their ends.
 #[derive(Clone, Copy)]
@@ -39,18 +36,31 @@ impl HalfEdges<'_> {
         }
     }
 
-    /// Calls `f` with each and its smaller end.
-    fn for_each(&self, mut f: impl FnMut(u32, u32)) {
+    /// The half-edges of one of as many parts as there are threads: of whole triangles.
+    fn part(&self, part: usize) -> Range<usize> {
         match self {
             Self::OfTriangles(corners) => {
-                for (&[a, b, c], h) in corners.iter().zip((0u32..).step_by(3)) {
-                    f(h, a.min(b));
-                    f(h + 1, b.min(c));
-                    f(h + 2, c.min(a));
+                let Range { start, end } = parallel::part_of(corners.len(), part);
+                3 * start..3 * end
+            }
+            Self::Listed { tails, .. } => parallel::part_of(tails.len(), part),
+        }
+    }
+
+    /// Calls `f` with those of a part and their ends.
+    fn for_each(&self, range: Range<usize>, mut f: impl FnMut(u32, [u32; 2])) {
+        match self {
+            Self::OfTriangles(corners) => {
+                let corners = &corners[range.start / 3..range.end / 3];
+                for (&[a, b, c], h) in corners.iter().zip((range.start as u32..).step_by(3)) {
+                    f(h, [a, b]);
+                    f(h + 1, [b, c]);
+                    f(h + 2, [c, a]);
                 }
             }
             Self::Listed { tails, heads } => {
-                tails.iter().zip(*heads).zip(0..).for_each(|((&p, &q), h)| f(h, p.min(q)));
+                let ends = tails[range.clone()].iter().zip(&heads[range.clone()]);
+                ends.zip(range.start as u32..).for_each(|((&p, &q), h)| f(h, [p, q]));
             }
         }
     }
@@ -92,8 +102,10 @@ fn shared_firsts(n_points: usize, half_edges: HalfEdges<'_>) -> Vec<AtomicU32> {
 
 /// The edges whose smaller end is one of from..to.
 fn join_edges_at(from: u32, to: u32, half_edges: HalfEdges<'_>, first: &[AtomicU32]) {
+    let all = 0..half_edges.len();
     let mut offsets = vec![0u32; (to - from) as usize + 2];
-    half_edges.for_each(|_, low| {
+    half_edges.for_each(all.clone(), |_, [p, q]| {
+        let low = p.min(q);
         if from <= low && low < to {
             offsets[(low - from) as usize + 2] += 1;
         }
@@ -101,35 +113,29 @@ fn join_edges_at(from: u32, to: u32, half_edges: HalfEdges<'_>, first: &[AtomicU
     for i in 2..offsets.len() {
         offsets[i] += offsets[i - 1];
     }
-    // offsets[i + 1] is where the next entry of point i goes; in the end, where those of i + 1 begin.
-    let mut entries = vec![0u32; offsets.last().map_or(0, |&n| n as usize)];
-    half_edges.for_each(|h, low| {
+    // offsets[i + 1] is where the next entry of point i goes; in the end, where those of i + 1 begin. An entry is the larger
+    // end and the half-edge.
+    let mut entries = vec![(0u32, 0u32); offsets.last().map_or(0, |&n| n as usize)];
+    half_edges.for_each(all, |h, [p, q]| {
+        let low = p.min(q);
         if from <= low && low < to {
             let at = &mut offsets[(low - from) as usize + 1];
-            entries[*at as usize] = h;
+            entries[*at as usize] = (p.max(q), h);
             *at += 1;
         }
     });
-    let (mut uppers, mut sorted) = (Vec::new(), Vec::new());
     for range in offsets.windows(2) {
-        // Ascending, so the first of an edge comes first.
-        let around = &entries[range[0] as usize..range[1] as usize];
-        uppers.clear();
-        uppers.extend(around.iter().map(|&h| {
-            let [p, q] = half_edges.ends(h as usize);
-            p.max(q)
-        }));
+        // Ascending by half-edges, so the first of an edge comes first.
+        let around = &mut entries[range[0] as usize..range[1] as usize];
         if around.len() <= FEW {
-            for (&h, upper) in around.iter().zip(&uppers) {
-                let same = uppers.iter().position(|other| other == upper).expect("it is one of them");
-                first[h as usize].store(around[same], Relaxed);
+            for &(upper, h) in around.iter() {
+                let same = around.iter().find(|other| other.0 == upper).expect("it is one of them");
+                first[h as usize].store(same.1, Relaxed);
             }
             continue;
         }
-        sorted.clear();
-        sorted.extend(around.iter().zip(&uppers).map(|(&h, &upper)| (upper, h)));
-        sorted.sort_unstable();
-        for edge in sorted.chunk_by(|a, b| a.0 == b.0) {
+        around.sort_unstable();
+        for edge in around.chunk_by(|a, b| a.0 == b.0) {
             edge.iter().for_each(|&(_, h)| first[h as usize].store(edge[0].1, Relaxed));
         }
     }
@@ -139,43 +145,43 @@ fn join_edges_at(from: u32, to: u32, half_edges: HalfEdges<'_>, first: &[AtomicU
 /// to the smaller.
 pub(crate) fn edges(n_points: usize, half_edges: HalfEdges<'_>) -> (Vec<[u32; 2]>, Vec<u32>) {
     let codes = shared_firsts(n_points, half_edges);
-    let (n_chunks, range) = parallel::chunks(codes.len(), CHUNK);
-    // Which half-edges are the first of their edges, as bits.
-    let firsts = parallel::map(n_chunks, |chunk| {
-        let is_first = |h: usize| codes[h].load(Relaxed) as usize == h;
-        let words = range(chunk).step_by(64).map(|begin| {
-            let end = (begin + 64).min(codes.len());
-            (begin..end).fold(0u64, |bits, h| bits | u64::from(is_first(h)) << (h - begin))
-        });
-        words.collect::<Vec<u64>>()
+    let first_of = |h: u32| codes[h as usize].load(Relaxed);
+    let counts = parallel::map(parallel::n_threads(), |part| {
+        let part = half_edges.part(part);
+        codes[part.clone()].iter().zip(part).filter(|(code, h)| code.load(Relaxed) as usize == *h).count()
     });
-    let counts: Vec<usize> =
-        firsts.iter().map(|words| words.iter().map(|w| w.count_ones() as usize).sum()).collect();
     let mut edges = parallel::zeros(counts.iter().sum());
     let mut begin = 0;
     let begins = counts.iter().map(|count| {
         begin += count;
         (begin - count) as u32
     });
-    let parts: Vec<_> =
-        begins.zip(&firsts).zip(parallel::cut(&mut edges, counts.iter().copied())).enumerate().collect();
-    parallel::each(parts, |(chunk, ((begin, words), part))| {
-        let of_word = |(w, &word)| bits_of(word).map(move |bit| chunk * CHUNK + 64 * w + bit);
-        for ((h, edge), number) in words.iter().enumerate().flat_map(of_word).zip(part).zip(begin..) {
-            let [p, q] = half_edges.ends(h);
-            *edge = [p.min(q), p.max(q)];
-            codes[h].store(2 * number + u32::from(p > q), Relaxed);
-        }
+    let parts = begins.zip(parallel::cut(&mut edges, counts.iter().copied())).collect();
+    let later = parallel::map_each(parts, |part, (begin, edges): (u32, &mut [[u32; 2]])| {
+        let part = half_edges.part(part);
+        let (from, mut number, mut later) = (part.start as u32, 0, Vec::new());
+        half_edges.for_each(part, |h, [p, q]| {
+            let first = first_of(h);
+            let code = if first == h {
+                edges[number as usize] = [p.min(q), p.max(q)];
+                number += 1;
+                2 * (begin + number - 1)
+            } else if first >= from {
+                // It has its code by now.
+                first_of(first) & !1
+            } else {
+                later.push(h);
+                return;
+            };
+            codes[h as usize].store(code + u32::from(p > q), Relaxed);
+        });
+        later
     });
-    // The others have the numbers of their firsts, which have their codes by now.
-    parallel::map(n_chunks, |chunk| {
-        for h in range(chunk) {
-            let at = h % CHUNK;
-            if firsts[chunk][at / 64] >> (at % 64) & 1 == 0 {
-                let [p, q] = half_edges.ends(h);
-                let of_first = codes[codes[h].load(Relaxed) as usize].load(Relaxed);
-                codes[h].store((of_first & !1) + u32::from(p > q), Relaxed);
-            }
+    // Those whose firsts are in parts before.
+    parallel::map(later.len(), |part| {
+        for &h in &later[part] {
+            let [p, q] = half_edges.ends(h as usize);
+            codes[h as usize].store((first_of(first_of(h)) & !1) + u32::from(p > q), Relaxed);
         }
     });
     (edges, codes.into_iter().map(AtomicU32::into_inner).collect())
@@ -212,11 +218,20 @@ mod tests {
     fn edges_are_numbered_by_their_first_half_edges() {
         // Two triangles that share an edge, a third over the first, the other way round.
         let (tails, heads) = (vec![0, 1, 2, 2, 1, 3, 0, 2, 1], vec![1, 2, 0, 1, 3, 2, 2, 1, 0]);
-        let (edges, codes) = edges(4, HalfEdges::Listed { tails: &tails, heads: &heads });
-        assert_eq!(edges, [[0, 1], [1, 2], [0, 2], [1, 3], [2, 3]]);
-        assert_eq!(codes, [0, 2, 5, 3, 6, 9, 4, 3, 1]);
-        let facets = facets_of_edges(5, &Cells::uniform(3, codes));
-        assert_eq!(facets, [[0, 2], [0, MANY], [2, 0], [1, NONE], [NONE, 1]]);
+        let triangles = [[0, 1, 2], [2, 1, 3], [0, 2, 1]];
+        for threads in 1..=4 {
+            let team = parallel::Team::new(std::num::NonZeroUsize::new(threads));
+            for half_edges in
+                [HalfEdges::Listed { tails: &tails, heads: &heads }, HalfEdges::OfTriangles(&triangles)]
+            {
+                let (edges, codes) =
+                    team.work(usize::MAX, || edges(4, half_edges)).expect("there are threads");
+                assert_eq!(edges, [[0, 1], [1, 2], [0, 2], [1, 3], [2, 3]]);
+                assert_eq!(codes, [0, 2, 5, 3, 6, 9, 4, 3, 1]);
+                let facets = facets_of_edges(5, &Cells::uniform(3, codes));
+                assert_eq!(facets, [[0, 2], [0, MANY], [2, 0], [1, NONE], [NONE, 1]]);
+            }
+        }
         for n_points in [4, 400] {
             let half_edges = HalfEdges::Listed { tails: &tails, heads: &heads };
             assert_eq!(first_of_edge(n_points, half_edges), [0, 1, 2, 1, 4, 5, 2, 1, 0]);

@@ -60,10 +60,10 @@ impl Placed {
         let begins = offsets_of_lengths(surfaces.iter().map(|surface| surface.points.len() as u32));
         let snapped = parallel::map_lists(&begins, |surface, v| grid.snap(surfaces[surface].points.xyz(v)));
         let Unified { table, points, number } = Unified::new(snapped);
-        let least = Tolerance::new(grid.coarseness() / 2.0);
+        let (least, step) = (Tolerance::new(grid.coarseness() / 2.0), grid.step());
         let mut tolerances = parallel::map_lists(&begins, |surface, v| {
             let size = surfaces[surface].points.xyz(v).iter().fold(0.0, |size: f64, x| size.max(x.abs()));
-            least.max(Tolerance::new(error(&surfaces[surface], size) / grid.step()))
+            least.max(Tolerance::new(error(&surfaces[surface], size) / step))
         });
         if !number.is_empty() {
             let mut of_points = vec![Tolerance::default(); points.len()];

@@ -162,30 +162,29 @@ impl Walls {
 
     /// Adds the next face between two cells with its contributions to the jumps: solid and signed coefficient.
     pub(crate) fn push_face(&mut self, cells: [u32; 2], contributions: impl Iterator<Item = (u32, i32)>) {
-        let begin = self.jumps.len();
-        let jump =
-            |(solid, coefficient): (u32, i32)| Jump { solid, signed: coefficient, odd: coefficient % 2 != 0 };
-        self.jumps.extend(contributions.map(jump));
-        if self.jumps.len() - begin > 1 {
-            let mut all = self.jumps.split_off(begin);
-            all.sort_unstable_by_key(|j| j.solid);
-            self.jumps.extend(all.chunk_by(|a, b| a.solid == b.solid).map(|same| Jump {
-                solid: same[0].solid,
-                signed: same.iter().map(|j| j.signed).sum(),
-                odd: same.iter().fold(false, |odd, j| odd ^ j.odd),
-            }));
+        let mut jumps = contributions.map(|(solid, signed)| Jump { solid, signed, odd: signed % 2 != 0 });
+        let (first, second) = (jumps.next(), jumps.next());
+        if let (Some(only), None) = (first, second) {
+            // As most faces have: the same as one before has, mostly.
+            return self.push_wall(cells, &[only]);
         }
-        self.close(cells, begin);
+        let mut all: Vec<Jump> = first.into_iter().chain(second).chain(jumps).collect();
+        all.sort_unstable_by_key(|j| j.solid);
+        let sums = all.chunk_by(|a, b| a.solid == b.solid).map(|same| Jump {
+            solid: same[0].solid,
+            signed: same.iter().map(|j| j.signed).sum(),
+            odd: same.iter().fold(false, |odd, j| odd ^ j.odd),
+        });
+        self.push_wall(cells, &sums.collect::<Vec<_>>());
     }
 
-    /// Makes a wall of the jumps from `begin` on, unless one of the last is the same.
-    fn close(&mut self, cells: [u32; 2], begin: usize) {
-        let (n, jumps) = (self.cells.len(), &self.jumps[begin..]);
+    /// Adds a wall, unless one of the last is the same.
+    fn push_wall(&mut self, cells: [u32; 2], jumps: &[Jump]) {
+        let n = self.cells.len();
         let is_same = |wall: usize| self.cells[wall] == cells && self.of(wall as u32) == jumps;
-        if (n.saturating_sub(RECENT)..n).rev().any(is_same) {
-            self.jumps.truncate(begin);
-        } else {
+        if !(n.saturating_sub(RECENT)..n).rev().any(is_same) {
             self.cells.push(cells);
+            self.jumps.extend_from_slice(jumps);
             self.offsets.push(self.jumps.len() as u32);
         }
     }
@@ -199,11 +198,7 @@ impl Walls {
             walls
         });
         let mut all = Self::new();
-        for (cells, jumps) in parts.iter().flat_map(Self::iter) {
-            let begin = all.jumps.len();
-            all.jumps.extend_from_slice(jumps);
-            all.close(cells, begin);
-        }
+        parts.iter().flat_map(Self::iter).for_each(|(cells, jumps)| all.push_wall(cells, jumps));
         all
     }
 

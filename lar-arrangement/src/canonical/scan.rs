@@ -1,7 +1,6 @@
 //! Which points are nearly one, and which pairs of facets lie nearly in one plane.
 
 use super::{Input, Tolerance, near};
-use crate::boxes::NO_GROUP;
 use crate::parallel;
 use crate::progress::{Cancelled, Course};
 use crate::vector::{distance, dot, minus, size};
@@ -57,11 +56,13 @@ impl Scan {
             })
         };
         let of_neighbours = || {
-            let (n_chunks, range) = parallel::chunks(input.soup.n_facets(), PAIRS_A_CHUNK);
+            let (n_chunks, range) = parallel::chunks(input.soup.edges.len(), PAIRS_A_CHUNK);
             course.map(n_chunks, |chunk| {
-                let mut found = Vec::new();
-                range(chunk).for_each(|f| coplanar_neighbours(input, f as u32, largest, &mut found));
-                found
+                let pairs = range(chunk).filter_map(|edge| {
+                    let pair = input.neighbours_at(edge as u32)?;
+                    has_coplanar_sides(input, edge as u32, pair, largest).then_some(pair)
+                });
+                pairs.collect::<Vec<_>>()
             })
         };
         // The first is one thread's work; the others have the second to do meanwhile.
@@ -99,50 +100,32 @@ impl Outlines {
     }
 }
 
-/// The facets at the edges that run along those of a facet, where they are not among the pairs and nearly in one plane.
-fn coplanar_neighbours(input: &Input, f: u32, largest: f64, found: &mut Vec<[u32; 2]>) {
-    let edges = &input.soup.facet_edges[f as usize];
-    let triangle = (edges.len() == 3).then(|| Triangle::of(input, f));
-    for (side, code) in edges.iter().enumerate().filter(|(_, code)| code.is_multiple_of(2)) {
-        let Some(pair) = input.neighbours_at(code / 2) else { continue };
-        let is_bent = triangle.as_ref().is_some_and(|t| t.is_bent(input, side, pair[1], largest));
-        if !is_bent && are_nearly_coplanar(input, pair, |f| Shape::of(input, f)) {
-            found.push(pair);
-        }
-    }
+/// Whether the facets at an edge, which are not among the pairs, lie nearly in one plane.
+fn has_coplanar_sides(input: &Input, edge: u32, pair: [u32; 2], largest: f64) -> bool {
+    !is_bent(input, edge, pair, largest) && are_nearly_coplanar(input, pair, |f| Shape::of(input, f))
 }
 
-/// A triangle, and a bound of its sides. Side k leads from corner k to the next.
-struct Triangle {
-    base: [u32; 3],
-    normal: [f64; 3],
-    origin: [f64; 3],
-    size: f64,
-}
-
-impl Triangle {
-    fn of(input: &Input, facet: u32) -> Self {
-        let geometry = &input.soup.geometry;
-        let base = geometry.base(facet);
-        let [a, b, c] = base.map(|p| geometry.position(p));
-        Self { base, normal: geometry.normal(facet), origin: a, size: size(minus(b, a)) + size(minus(c, a)) }
+/// Whether two triangles at an edge are bent there by more than the tolerance. Their planes hold the edge; the corner of
+/// one lies off the plane of the other by det / |n|, and `nearly_holds` allows for tolerance · (1 + 2 · distance / width)
+/// with width = |n| / longest side. No length is above s, and |n| not above s².
+fn is_bent(input: &Input, edge: u32, pair: [u32; 2], tolerance: f64) -> bool {
+    let (soup, geometry) = (input.soup, &input.soup.geometry);
+    if !soup.are_triangles() && !pair.iter().all(|&f| soup.is_triangle(f)) {
+        return false;
     }
-
-    /// Whether the triangle and another one at a side are bent there by more than the tolerance. Their planes hold the
-    /// side; the corner of one lies off the plane of the other by det / |n|, and `nearly_holds` allows for tolerance ·
-    /// (1 + 2 · distance / width) with width = |n| / longest side. No length is above s, and |n| not above s².
-    fn is_bent(&self, input: &Input, side: usize, other: u32, tolerance: f64) -> bool {
-        let geometry = &input.soup.geometry;
-        if input.charts.of(other) == NO_GROUP && !input.soup.is_triangle(other) {
-            return false;
-        }
-        let (p, q) = (self.base[side], self.base[(side + 1) % 3]);
-        let [a, b, c] = geometry.base(other);
-        let off = minus(geometry.position(a ^ b ^ c ^ p ^ q), self.origin);
-        let s = self.size + size(off);
-        // Rounding changes the determinant by less than 2^-48 · s³, and s is below 2^44.
-        dot(self.normal, off).abs() > (4.0 * tolerance + 1.0) * s * s
-    }
+    let [p, q] = soup.edges[edge as usize];
+    let origin = geometry.position(p);
+    let to = |at: u32| minus(geometry.position(at), origin);
+    let to_corner = |f: u32| {
+        let [a, b, c] = geometry.base(f);
+        to(a ^ b ^ c ^ p ^ q)
+    };
+    // Edges are in the order of the first facets that have them: those have been read last.
+    let first = pair[0].min(pair[1]);
+    let [own, off] = [first, pair[0] ^ pair[1] ^ first].map(to_corner);
+    let s = size(to(q)) + size(own) + size(off);
+    // Rounding changes the determinant by less than 2^-48 · s³, and s is below 2^44.
+    dot(geometry.normal(first), off).abs() > (4.0 * tolerance + 1.0) * s * s
 }
 
 fn are_nearly_coplanar(input: &Input, [f, g]: [u32; 2], shape: impl Fn(u32) -> Shape) -> bool {

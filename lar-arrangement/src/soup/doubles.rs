@@ -49,15 +49,10 @@ fn input_triangle(soup: &Soup, facet: u32) -> Option<[u32; 3]> {
 }
 
 fn may_be_double(soup: &Soup, facet: u32) -> bool {
-    let mut others = [NONE; 3];
-    for (other, &code) in others.iter_mut().zip(&soup.facet_edges[facet as usize]) {
-        let users = soup.facets_of_edge[(code / 2) as usize];
-        if users.contains(&MANY) {
-            return true;
-        }
-        *other = users[(1 - code % 2) as usize];
-    }
-    others[0] != NONE && others[0] == others[1]
+    let &[a, b, _] = &soup.facet_edges[facet as usize] else { return false };
+    let users = [a, b].map(|code| soup.facets_of_edge[(code / 2) as usize]);
+    let [at_a, at_b] = [users[0][(1 - a % 2) as usize], users[1][(1 - b % 2) as usize]];
+    users.as_flattened().contains(&MANY) || at_a != NONE && at_a == at_b
 }
 
 /// Whether the corners turn from the smallest to its smaller neighbour.
