@@ -27,6 +27,7 @@ mod half_edges;
 mod interner;
 mod kernel;
 mod live;
+mod marks;
 mod measure;
 mod meeting;
 mod merge;

@@ -199,6 +199,9 @@ impl<'a> Arranger<'a> {
     /// Computes the arrangement. O((n + k + m) log) time and O(n + k + m) memory for n facets, k pairs of facets
     /// that meet and m cells out.
     ///
+    /// Vertices, edges and faces are numbered as they first occur: in the order of the surfaces, or, of 1,024 surfaces with
+    /// 131,072 faces and more, along a space-filling curve through their boxes.
+    ///
     /// # Errors
     /// Points that are not three-dimensional or not finite, faces that name vertices that do not exist; with
     /// checks, a post-condition that does not hold; when the threads cannot be started or the work was cancelled.

@@ -9,6 +9,7 @@ mod numbering;
 use crate::counting::offsets;
 use crate::fragment::{FacetParent, Fragments, Groups, WHOLE};
 use crate::kernel::{Along, Direction, Geometry, Vertex, VertexDef, Way};
+use crate::marks::Marks;
 use crate::parallel;
 use crate::soup::Soup;
 use crate::split::Cuts;
@@ -24,8 +25,8 @@ pub(crate) struct Skeleton {
     pub vertices: Vec<Vertex>,
     /// Ends of each edge, the smaller first.
     pub edges: Vec<[u32; 2]>,
-    /// The edges that are pieces, not whole edges of the input, ascending.
-    pieces: Vec<u32>,
+    /// The edges that are pieces, not whole edges of the input.
+    pieces: Marks,
     /// Their directions, from the smaller end to the larger.
     directions: Vec<Way>,
     /// Whether an edge is only a diagonal inside a polygon; empty when none is.
@@ -103,6 +104,7 @@ impl Skeleton {
         let Faces { loops, face_loops, parents, parent_offsets, of_groups } = Faces::new(&parts, &numbering);
         let faces_of_facets = FacesOfFacets::new(groups, &of_groups);
         let Numbering { pieces, directions, .. } = numbering;
+        let pieces = Marks::among(edges.len(), &pieces);
         Self {
             vertices,
             edges,
@@ -119,7 +121,7 @@ impl Skeleton {
 
     /// Lets go of what only stages 4 and 5 need, once the loops are those of the arrangement.
     pub(crate) fn drop_edges(&mut self) {
-        self.pieces = Vec::new();
+        self.pieces = Marks::default();
         self.directions = Vec::new();
         self.soft = Vec::new();
         self.faces_of_facets = FacesOfFacets::default();
@@ -159,13 +161,16 @@ impl Skeleton {
         self.parents[self.parent_offsets[face as usize] as usize].facet
     }
 
-    /// Direction of an edge from its smaller end to its larger. O(log n).
+    /// Direction of an edge from its smaller end to its larger. O(1).
     pub(crate) fn direction(&self, edge: u32, geometry: &Geometry) -> Direction {
-        let ends = self.edges[edge as usize].map(|v| self.vertices[v as usize].def);
-        match (self.pieces.binary_search(&edge), ends) {
-            (Err(_), [VertexDef::Point(p), VertexDef::Point(q)]) => geometry.direction(Along::Edge([p, q])),
-            (Ok(at) | Err(at), _) => geometry.towards(self.directions[at]),
+        if let Some(at) = self.pieces.place(edge) {
+            return geometry.towards(self.directions[at]);
         }
+        let ends = self.edges[edge as usize].map(|v| match self.vertices[v as usize].def {
+            VertexDef::Point(p) => p,
+            _ => unreachable!("edges of the input have points of the input as ends"),
+        });
+        geometry.direction(Along::Edge(ends))
     }
 
     /// First and last vertex of a half-edge.

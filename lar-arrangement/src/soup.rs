@@ -9,6 +9,7 @@ mod doubles;
 use crate::boxes::Aabb;
 use crate::canonical::Tolerance;
 use crate::counting::offsets as offsets_of_lengths;
+use crate::curve;
 use crate::error::ArrangementError;
 use crate::grid::Grid;
 use crate::grid_points::{PointTable, Unified};
@@ -22,6 +23,11 @@ use rustc_hash::FxHashMap;
 
 /// Points a chunk of work.
 const POINTS_A_CHUNK: usize = 1 << 12;
+
+/// Surfaces are put in order when they are so many: fewer are large, and each is in some order of its own.
+const MANY_SURFACES: usize = 1 << 10;
+/// And when they have so many faces: what belongs to fewer fits into the caches of a processor, wherever it is.
+const MANY_FACES: usize = 1 << 17;
 
 /// A face of the input that a polygon stands for: `sign` is −1 when the polygon is turned the other way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -46,6 +52,8 @@ pub(crate) struct Placed {
     pub tolerances: Vec<Tolerance>,
     /// The shared plane of each face of each surface; empty when there is none.
     pub plane_of_face: Vec<Vec<Option<u32>>>,
+    /// The order in which the vertices and faces of the surfaces are numbered.
+    pub order: Vec<u32>,
 }
 
 impl Placed {
@@ -55,15 +63,18 @@ impl Placed {
         surfaces: &[Surface],
         error: impl Fn(&Surface, f64) -> f64 + Sync + Send,
     ) -> Result<Self, ArrangementError> {
-        let grid = fitted_grid(surfaces)?;
+        let hulls = surfaces.iter().map(checked).collect::<Result<Vec<Aabb>, _>>()?;
+        let grid = fitted_grid(&hulls);
         // The vertices of all surfaces are numbered one after the other.
-        let begins = offsets_of_lengths(surfaces.iter().map(|surface| surface.points.len() as u32));
-        let snapped = parallel::map_lists(&begins, |surface, v| grid.snap(surfaces[surface].points.xyz(v)));
+        let order = order_of(surfaces, &hulls);
+        let nth = |i: usize| &surfaces[order[i] as usize];
+        let begins = offsets_of_lengths((0..order.len()).map(|i| nth(i).points.len() as u32));
+        let snapped = parallel::map_lists(&begins, |i, v| grid.snap(nth(i).points.xyz(v)));
         let Unified { table, points, number } = Unified::new(snapped);
         let (least, step) = (Tolerance::new(grid.coarseness() / 2.0), grid.step());
-        let mut tolerances = parallel::map_lists(&begins, |surface, v| {
-            let size = surfaces[surface].points.xyz(v).iter().fold(0.0, |size: f64, x| size.max(x.abs()));
-            least.max(Tolerance::new(error(&surfaces[surface], size) / step))
+        let mut tolerances = parallel::map_lists(&begins, |i, v| {
+            let size = nth(i).points.xyz(v).iter().fold(0.0, |size: f64, x| size.max(x.abs()));
+            least.max(Tolerance::new(error(nth(i), size) / step))
         });
         if !number.is_empty() {
             let mut of_points = vec![Tolerance::default(); points.len()];
@@ -72,18 +83,21 @@ impl Placed {
             }
             tolerances = of_points;
         }
-        let point_of =
-            begins.windows(2).map(|range| match number.get(range[0] as usize..range[1] as usize) {
+        let mut point_of = vec![Vec::new(); surfaces.len()];
+        for (range, &surface) in begins.windows(2).zip(&order) {
+            point_of[surface as usize] = match number.get(range[0] as usize..range[1] as usize) {
                 Some(of) => of.to_vec(),
                 None => (range[0]..range[1]).collect(),
-            });
+            };
+        }
         Ok(Self {
             grid,
             geometry: Geometry::new(points),
             point_ids: table,
-            point_of: point_of.collect(),
+            point_of,
             tolerances,
             plane_of_face: Vec::new(),
+            order,
         })
     }
 }
@@ -117,6 +131,8 @@ pub(crate) struct Soup {
     pub point_of: Vec<Vec<u32>>,
     /// How far each point may lie from where it was meant to be.
     pub tolerances: Vec<Tolerance>,
+    /// The order in which the vertices and faces of the surfaces were numbered.
+    pub order: Vec<u32>,
     /// Coefficient of each surface's faces in the boundary of its solid.
     pub coefficients: Vec<Vec<i8>>,
     /// Input faces without an inside (all corners on one line after snapping).
@@ -133,7 +149,7 @@ impl Soup {
     /// Polygons whose corners deviate from a plane by more than their tolerance are not treated as planar: their
     /// diagonals become edges of the result.
     pub(crate) fn new(surfaces: &[Surface], placed: Placed) -> Self {
-        let Placed { grid, geometry, point_ids, point_of, tolerances, plane_of_face } = placed;
+        let Placed { grid, geometry, point_ids, point_of, tolerances, plane_of_face, order } = placed;
         let mut builder = Builder {
             geometry,
             tolerances: &tolerances,
@@ -148,8 +164,8 @@ impl Soup {
             plane: None,
         };
         builder.reserve(surfaces.iter().map(Surface::n_faces).sum());
-        let mut coefficients = Vec::new();
-        for (solid, (surface, point_of)) in surfaces.iter().zip(&point_of).enumerate() {
+        for solid in order.iter().map(|&solid| solid as usize) {
+            let (surface, point_of) = (&surfaces[solid], &point_of[solid]);
             let planes = plane_of_face.get(solid).map_or(&[][..], Vec::as_slice);
             match surface.triangles() {
                 Some(corners) if builder.geometry.is_on_grid() => {
@@ -157,8 +173,9 @@ impl Soup {
                 }
                 _ => builder.push_faces(solid, surface, point_of, planes),
             }
-            coefficients.push(parallel::map_light(surface.n_faces(), |f| surface.coefficient(f)));
         }
+        let coefficients_of =
+            |surface: &Surface| parallel::map_light(surface.n_faces(), |f| surface.coefficient(f));
         let Builder { geometry, facets, polygon_flat, polygon_plane, parents, .. } = builder;
         let Builder { degenerate, triangulated, bend, .. } = builder;
         let (edges, directed) = half_edges::edges(geometry.n_points(), facets.half_edges(&geometry));
@@ -183,7 +200,8 @@ impl Soup {
             point_ids,
             point_of,
             tolerances,
-            coefficients,
+            order,
+            coefficients: surfaces.iter().map(coefficients_of).collect(),
             degenerate,
             triangulated,
             bend,
@@ -325,34 +343,45 @@ impl Soup {
     }
 }
 
-fn fitted_grid(surfaces: &[Surface]) -> Result<Grid, ArrangementError> {
-    let mut all = Aabb::EMPTY;
-    for surface in surfaces {
-        if surface.points.dim() != 3 {
-            return Err(ArrangementError::Dimension {
+/// The box around the points of a surface; refuses points that are not three-dimensional or not finite, and faces with
+/// corners that do not exist.
+fn checked(surface: &Surface) -> Result<Aabb, ArrangementError> {
+    if surface.points.dim() != 3 {
+        return Err(ArrangementError::Dimension { solid: surface.name.clone(), dim: surface.points.dim() });
+    }
+    let (all, n) = (hull(surface)?, surface.points.len());
+    let are_known = |corners: &[u32]| parallel::all(corners.len(), |i| (corners[i] as usize) < n);
+    if surface.triangles().is_some_and(are_known) {
+        return Ok(all);
+    }
+    for face in 0..surface.n_faces() {
+        if let Some(&vertex) = surface.face(face).flatten().find(|&&v| v as usize >= n) {
+            return Err(ArrangementError::NoSuchVertex {
                 solid: surface.name.clone(),
-                dim: surface.points.dim(),
+                face: (face as u32).into(),
+                vertex: vertex.into(),
+                n_vertices: n,
             });
         }
-        all = all.joined(&hull(surface)?);
-        let n = surface.points.len();
-        let are_known = |corners: &[u32]| parallel::all(corners.len(), |i| (corners[i] as usize) < n);
-        if surface.triangles().is_some_and(are_known) {
-            continue;
-        }
-        for face in 0..surface.n_faces() {
-            if let Some(&vertex) = surface.face(face).flatten().find(|&&v| v as usize >= n) {
-                return Err(ArrangementError::NoSuchVertex {
-                    solid: surface.name.clone(),
-                    face: (face as u32).into(),
-                    vertex: vertex.into(),
-                    n_vertices: n,
-                });
-            }
-        }
     }
+    Ok(all)
+}
+
+fn fitted_grid(hulls: &[Aabb]) -> Grid {
+    let all = hulls.iter().fold(Aabb::EMPTY, |all, hull| all.joined(hull));
     let is_empty = all.lo[0] > all.hi[0];
-    Ok(if is_empty { Grid::fitted([0.0; 3], [0.0; 3]) } else { Grid::fitted(all.lo, all.hi) })
+    if is_empty { Grid::fitted([0.0; 3], [0.0; 3]) } else { Grid::fitted(all.lo, all.hi) }
+}
+
+/// The order in which the vertices and faces of surfaces are numbered: that of the input, or where there are many that of a
+/// space-filling curve. What is near each other in space then lies near each other in memory, too.
+fn order_of(surfaces: &[Surface], hulls: &[Aabb]) -> Vec<u32> {
+    let n = surfaces.len();
+    if n < MANY_SURFACES || surfaces.iter().map(Surface::n_faces).sum::<usize>() < MANY_FACES {
+        return (0..n as u32).collect();
+    }
+    let all = hulls.iter().fold(Aabb::EMPTY, |all, hull| all.joined(hull));
+    curve::z_order(&all, n, |i| hulls[i as usize])
 }
 
 /// The box around the points of a surface; refuses those that are not finite.
@@ -463,8 +492,8 @@ fn push_ends([tails, heads]: &mut [Vec<u32>; 2], corners: &[[u32; 3]]) {
 
 /// Parents sorted by polygon, each polygon's in the order of the input, and where each polygon's begin.
 fn by_polygon(n_polygons: usize, mut parents: Vec<(u32, Parent)>) -> (Vec<Parent>, Vec<u32>) {
-    if !parents.is_sorted_by_key(|p| p.0) {
-        parents.sort_by_key(|p| p.0);
+    if !parents.is_sorted() {
+        parents.sort_unstable();
     }
     let offsets = offsets(n_polygons, parents.iter().map(|p| p.0));
     (parents.into_iter().map(|p| p.1).collect(), offsets)
@@ -476,7 +505,7 @@ struct Builder<'a> {
     facets: Facets,
     polygon_flat: Vec<bool>,
     polygon_plane: Vec<Option<u32>>,
-    /// Polygon and parent, in the order of the input.
+    /// Polygon and parent, in the order of the faces.
     parents: Vec<(u32, Parent)>,
     polygon_ids: FxHashMap<Vec<u32>, (u32, bool)>,
     degenerate: u32,

@@ -3,6 +3,7 @@
 
 use crate::crossing::{Contacts, Segment};
 use crate::kernel::{Along, Sign, Vertex};
+use crate::marks::Marks;
 use crate::parallel;
 use crate::soup::Soup;
 use crate::vertices::Vertices;
@@ -22,14 +23,16 @@ pub(crate) struct Cuts {
 pub(crate) struct Sparse<T> {
     /// What has a list, ascending.
     keys: Vec<u32>,
+    /// The same.
+    marks: Marks,
     /// The list of `keys[i]` is `items[offsets[i]..offsets[i + 1]]`.
     offsets: Vec<u32>,
     items: Vec<T>,
 }
 
 impl<T> Sparse<T> {
-    /// Lists of entries, these in the order of what they are of.
-    fn new<E>(sorted: Vec<E>, key: impl Fn(&E) -> u32, item: impl Fn(E) -> T) -> Self {
+    /// Lists for some of n things: of entries, these in the order of what they are of.
+    fn new<E>(n: usize, sorted: Vec<E>, key: impl Fn(&E) -> u32, item: impl Fn(E) -> T) -> Self {
         let (mut keys, mut offsets) = (Vec::new(), Vec::new());
         for (key, at) in sorted.iter().map(key).zip(0..) {
             if keys.last() != Some(&key) {
@@ -38,7 +41,8 @@ impl<T> Sparse<T> {
             }
         }
         offsets.push(sorted.len() as u32);
-        Self { keys, offsets, items: sorted.into_iter().map(item).collect() }
+        let marks = Marks::among(n, &keys);
+        Self { keys, marks, offsets, items: sorted.into_iter().map(item).collect() }
     }
 
     /// What has a list that is not empty, ascending.
@@ -46,11 +50,11 @@ impl<T> Sparse<T> {
         &self.keys
     }
 
-    /// The list of one thing. O(log n).
+    /// The list of one thing. O(1).
     pub(crate) fn of(&self, key: u32) -> &[T] {
-        match self.keys.binary_search(&key) {
-            Ok(i) => &self.items[self.offsets[i] as usize..self.offsets[i + 1] as usize],
-            Err(_) => &[],
+        match self.marks.place(key) {
+            Some(i) => &self.items[self.offsets[i] as usize..self.offsets[i + 1] as usize],
+            None => &[],
         }
     }
 }
@@ -77,7 +81,8 @@ impl Cuts {
             let mut touches: Vec<(u32, u32)> = touches.into_iter().map(|(f, v)| (f, id(v))).collect();
             touches.sort_unstable();
             touches.dedup();
-            (Sparse::new(segments, |s| s.facet, |s| s), Sparse::new(touches, |t| t.0, |t| t.1))
+            let n = soup.n_facets();
+            (Sparse::new(n, segments, |s| s.facet, |s| s), Sparse::new(n, touches, |t| t.0, |t| t.1))
         };
         let (inner, (segments, touches)) = parallel::join(inside_edges, inside_facets);
         Self { inner, segments, touches }
@@ -115,7 +120,7 @@ pub(crate) fn offsets(n: usize, list: impl Iterator<Item = u32>) -> Vec<u32> {
 fn sorted_along_edges(soup: &Soup, splits: Vec<(u32, u32)>, vertices: &[Vertex]) -> Sparse<u32> {
     let geometry = &soup.geometry;
     let vertex = |v: u32| &vertices[v as usize];
-    let mut inner = Sparse::new(splits, |s| s.0, |s| s.1);
+    let mut inner = Sparse::new(soup.edges.len(), splits, |s| s.0, |s| s.1);
     for (&edge, range) in inner.keys.iter().zip(inner.offsets.windows(2)) {
         let on_edge = &mut inner.items[range[0] as usize..range[1] as usize];
         if on_edge.len() > 1 {

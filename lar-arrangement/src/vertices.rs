@@ -54,6 +54,8 @@ impl Vertices {
             Some(first) => number[first as usize].load(Relaxed),
             None => first[i].load(Relaxed),
         };
+        // Contacts come first; where facets are cut more are found, but fewer.
+        self.list.reserve(firsts.len() + firsts.len() / 2);
         parallel::extend_light(&mut self.list, firsts.len(), |k| found[firsts[k] as usize]);
         let keyed = parallel::select(sorted.len(), |k| is_first(sorted[k as usize] as u32));
         self.others.push(parallel::map_light(keyed.len(), |k| {

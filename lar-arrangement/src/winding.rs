@@ -197,7 +197,11 @@ impl Walls {
             range(chunk).for_each(|face| push(&mut walls, face));
             walls
         });
+        let sum = |n: fn(&Self) -> usize| parts.iter().map(n).sum::<usize>();
         let mut all = Self::new();
+        all.cells.reserve(sum(|part| part.cells.len()));
+        all.offsets.reserve(sum(|part| part.cells.len()));
+        all.jumps.reserve(sum(|part| part.jumps.len()));
         parts.iter().flat_map(Self::iter).for_each(|(cells, jumps)| all.push_wall(cells, jumps));
         all
     }

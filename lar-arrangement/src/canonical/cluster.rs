@@ -105,7 +105,9 @@ impl Search<'_> {
             }
             out
         });
-        parts.into_iter().flatten().collect()
+        let mut all = Vec::with_capacity(parts.iter().map(Vec::len).sum());
+        parts.into_iter().for_each(|part| all.extend(part));
+        all
     }
 
     /// The cluster of some polygons: none when they are one triangle or have no plane; the polygons when they are not

@@ -154,6 +154,7 @@ pub(crate) fn merged_points(input: &Input, scan: &Scan, report: &mut Report) -> 
         point_of: renumbered(&input.soup.point_of, &new_id),
         tolerances: carried(&input.soup.tolerances, &new_id),
         plane_of_face: Vec::new(),
+        order: input.soup.order.clone(),
     })
 }
 

@@ -234,6 +234,7 @@ impl<'a> Placement<'a> {
             point_of: renumbered(&self.soup.point_of, &new_id),
             tolerances: carried(&self.soup.tolerances, &new_id),
             plane_of_face,
+            order: self.soup.order.clone(),
         }
     }
 }

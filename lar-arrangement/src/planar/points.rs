@@ -1,8 +1,9 @@
 //! Planar stage 1a: equal grid points are one.
 
 use crate::boxes::bits_of;
-use crate::counting::{offsets, sorted_by_place};
+use crate::counting::sorted_by_place;
 use crate::grid_points::hash;
+use crate::marks::Marks;
 use crate::parallel;
 use std::ops::Range;
 
@@ -33,31 +34,7 @@ pub(crate) fn unify(
     (points, number)
 }
 
-/// Some of the numbers below another one: a bit each, which stay in a processor's cache.
-struct Marks {
-    bits: Vec<u64>,
-    /// How many there are before each word of bits.
-    before: Vec<u32>,
-    n: usize,
-}
-
 impl Marks {
-    fn new(n: usize, is_marked: impl Fn(usize) -> bool + Sync + Send) -> Self {
-        let word = |w: usize| {
-            (64 * w..n.min(64 * w + 64)).fold(0, |bits, i| bits | u64::from(is_marked(i)) << (i % 64))
-        };
-        let bits = parallel::map_light(n.div_ceil(64), word);
-        let mut before = offsets(bits.iter().map(|bits| bits.count_ones()));
-        let n = before.pop().map_or(0, |n| n as usize);
-        Self { bits, before, n }
-    }
-
-    /// Which of the marked numbers i is, or the last one before it.
-    fn number(&self, i: u32) -> u32 {
-        let (word, up_to_it) = (i as usize / 64, u64::MAX >> (63 - i % 64));
-        self.before[word] + (self.bits[word] & up_to_it).count_ones() - 1
-    }
-
     /// The marked numbers in a range that begins and, unless it is the last, ends with a word of bits.
     fn of(&self, range: Range<usize>) -> impl Iterator<Item = usize> + '_ {
         let words = range.start / 64..range.end.div_ceil(64);

@@ -117,17 +117,19 @@ impl<'a> Numbering<'a> {
         });
         let half_edges = HalfEdges::Listed { tails: &tails, heads: &heads };
         let first_piece = half_edges::first_of_edge(n_vertices, half_edges);
+        let n_pieces = first_piece.iter().zip(0u32..).filter(|(first, piece)| *first == piece).count();
         Self {
             soup,
             cuts,
             whole,
             is_border,
-            ahead: border.into_iter().peekable(),
             at: 0,
-            changes: Vec::new(),
+            // A piece is one edge at most; one at the border is left out where it was, and may be added elsewhere.
+            changes: Vec::with_capacity(n_pieces + 2 * border.len()),
+            ahead: border.into_iter().peekable(),
             half_edges: Vec::with_capacity(parts.sum(|part| part.half_edges.len())),
-            pieces: Vec::new(),
-            directions: Vec::new(),
+            pieces: Vec::with_capacity(n_pieces),
+            directions: Vec::with_capacity(n_pieces),
             any_soft: soup.has_soft_edges(),
             hard: Vec::new(),
             input_edges,
