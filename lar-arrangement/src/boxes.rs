@@ -475,7 +475,7 @@ impl<const D: usize> BoxTree<D> {
             }
             found
         })?;
-        let pairs = parts.concat();
+        let pairs = parallel::concat(&parts);
         // What is found of groups, and which items are there besides, shows in no result.
         Ok(match &self.order {
             Some(order) => order.sorted(&pairs),

@@ -18,7 +18,7 @@ use rustc_hash::FxHashMap;
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 
-/// A vertex in the lists below: an input point, or (from `n_points` on) an entry of `Contacts::vertices`.
+/// A vertex in the lists below: an input point, or (from `n_points` on) an entry of `Contacts::vertices` of the same chunk.
 pub(crate) type VertexRef = u32;
 
 /// A segment inside `facet`, common with the facet `other`.
@@ -29,7 +29,7 @@ pub(crate) struct Segment {
     pub ends: [VertexRef; 2],
 }
 
-/// What the pairs of facets have in common.
+/// What the pairs of facets of a chunk have in common.
 #[derive(Debug, Default)]
 pub(crate) struct Contacts {
     pub vertices: Vec<Vertex>,
@@ -47,31 +47,6 @@ pub(crate) struct Contacts {
 }
 
 impl Contacts {
-    /// None, with room for those of some chunks.
-    pub(crate) fn with_room_for(parts: &[Self]) -> Self {
-        let sum = |n: fn(&Self) -> usize| parts.iter().map(n).sum();
-        Self {
-            vertices: Vec::with_capacity(sum(|part| part.vertices.len())),
-            splits: Vec::with_capacity(sum(|part| part.splits.len())),
-            segments: Vec::with_capacity(sum(|part| part.segments.len())),
-            touches: Vec::with_capacity(sum(|part| part.touches.len())),
-            coplanar: Vec::with_capacity(sum(|part| part.coplanar.len())),
-            ..Self::default()
-        }
-    }
-
-    /// Appends the contacts of another chunk.
-    pub(crate) fn append(&mut self, mut other: Contacts, n_points: u32) {
-        let base = self.vertices.len() as u32;
-        let moved = |v: VertexRef| if v < n_points { v } else { v + base };
-        self.vertices.append(&mut other.vertices);
-        self.splits.extend(other.splits.into_iter().map(|(e, v)| (e, moved(v))));
-        self.segments.extend(other.segments.into_iter().map(|s| Segment { ends: s.ends.map(moved), ..s }));
-        self.touches.extend(other.touches.into_iter().map(|(f, v)| (f, moved(v))));
-        self.coplanar.append(&mut other.coplanar);
-        self.crossing_pairs += other.crossing_pairs;
-    }
-
     /// A vertex on an edge by its definition, and how it is made when it is new.
     pub(crate) fn edge_vertex(
         &mut self,
@@ -84,6 +59,11 @@ impl Contacts {
             self.vertices.push(vertex(def));
             next
         })
+    }
+
+    /// No more will come: what only finds vertices again is let go of.
+    pub(crate) fn close(&mut self) {
+        self.known = FxHashMap::default();
     }
 }
 

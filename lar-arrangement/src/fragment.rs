@@ -86,6 +86,7 @@ impl Groups {
 #[derive(Debug, Default)]
 pub(crate) struct Fragments {
     pub vertices: Vec<Vertex>,
+    /// Each is in a loop: it is inside a facet, or has one on one side only.
     pub pieces: Vec<Piece>,
     /// Half-edges of all loops: 2 · piece, + 1 against its direction; or, marked with `WHOLE`, directed edges of the
     /// input that are not split.

@@ -427,6 +427,27 @@ pub(crate) fn concat<T: Copy + Default + Send + Sync>(lists: &[Vec<T>]) -> Vec<T
     all
 }
 
+/// As `concat`, for items without a default; lists are let go of one by one where there is one thread.
+pub(crate) fn joined<T: Copy + Send + Sync>(lists: Vec<Vec<T>>) -> Vec<T> {
+    let n = lists.iter().map(Vec::len).sum();
+    let mut all = Vec::with_capacity(n);
+    if n_threads() == 1 || n < WORTH_THREADS {
+        lists.into_iter().for_each(|list| all.extend(list));
+        return all;
+    }
+    let mut ends: Vec<usize> = lists.iter().map(Vec::len).collect();
+    (1..ends.len()).for_each(|list| ends[list] += ends[list - 1]);
+    // The list that each stretch of items begins in: from there on it is not far to that of any of them.
+    const STRETCH: usize = 1 << 10;
+    let first_lists = map_light(n.div_ceil(STRETCH), |i| ends.partition_point(|&end| end <= i * STRETCH));
+    extend_light(&mut all, n, |i| {
+        let from = first_lists[i / STRETCH];
+        let list = from + ends[from..].iter().take_while(|&&end| end <= i).count();
+        lists[list][i + lists[list].len() - ends[list]]
+    });
+    all
+}
+
 /// Whether something holds for all of 0..n.
 pub(crate) fn all(n: usize, holds: impl Fn(usize) -> bool + Sync + Send) -> bool {
     let (n_chunks, range) = chunks(n, LIGHT_CHUNK);

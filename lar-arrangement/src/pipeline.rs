@@ -23,6 +23,7 @@ use crate::union_find::UnionFind;
 use crate::vertices::Vertices;
 use crate::wrap;
 use lar_core::{Cells, Precision, Surface};
+use std::mem::take;
 use std::num::NonZeroUsize;
 
 /// A face of the input, and then a pair of facets, count as so many things that a step handles: an operation of few takes
@@ -274,9 +275,9 @@ impl<'a> Arranger<'a> {
         course.begin("contacts", stats)?;
         let mut contacts = contacts(soup, pairs, course)?;
         stats.pairs_tested = pairs.len() as u64;
-        stats.pairs_crossing = contacts.crossing_pairs;
+        stats.pairs_crossing = contacts.iter().map(|chunk| chunk.crossing_pairs).sum();
         let overlapping = overlapping(soup, &mut contacts, course)?;
-        let mut vertices = Vertices::new(&soup.geometry, std::mem::take(&mut soup.point_ids));
+        let mut vertices = Vertices::new(&soup.geometry, take(&mut soup.point_ids));
         let cuts = Cuts::new(soup, contacts, &mut vertices);
         let groups = Groups::new(soup, &cuts, overlapping);
         self.check(|| check::cuts(soup, &cuts, &vertices.list))?;
@@ -359,35 +360,34 @@ impl<'a> Arranger<'a> {
     }
 }
 
-fn contacts(soup: &Soup, pairs: &[[u32; 2]], course: &Course) -> Result<Contacts, Cancelled> {
+/// Chunk by chunk.
+fn contacts(soup: &Soup, pairs: &[[u32; 2]], course: &Course) -> Result<Vec<Contacts>, Cancelled> {
     let (n_chunks, range) = parallel::chunks(pairs.len(), PAIRS_A_CHUNK);
-    let parts = course.map(n_chunks, |chunk| {
+    course.map(n_chunks, |chunk| {
         let (mut out, mut scratch) = (Contacts::default(), Scratch::default());
         for &[f, g] in &pairs[range(chunk)] {
             crossing::meet(soup, f, g, &mut scratch, &mut out);
         }
+        out.close();
         out
-    })?;
-    let n_points = soup.geometry.n_points() as u32;
-    let mut all = Contacts::with_room_for(&parts);
-    parts.into_iter().for_each(|part| all.append(part, n_points));
-    Ok(all)
+    })
 }
 
-/// The sets of facets that overlap in one plane.
-fn overlapping(soup: &Soup, contacts: &mut Contacts, course: &Course) -> Result<UnionFind, Cancelled> {
-    let pairs = std::mem::take(&mut contacts.coplanar);
+/// The sets of facets that overlap in one plane. What these have in common besides is added to the contacts.
+fn overlapping(soup: &Soup, contacts: &mut Vec<Contacts>, course: &Course) -> Result<UnionFind, Cancelled> {
+    let pairs: Vec<[u32; 2]> = contacts.iter_mut().flat_map(|chunk| take(&mut chunk.coplanar)).collect();
     let (n_chunks, range) = parallel::chunks(pairs.len(), PAIRS_A_CHUNK);
     let parts = course.map(n_chunks, |chunk| {
         let (mut out, mut overlay) = (Contacts::default(), Overlay::default());
         let overlapping =
             pairs[range(chunk)].iter().filter(|pair| coplanar::meet(soup, **pair, &mut overlay, &mut out));
         let overlapping: Vec<[u32; 2]> = overlapping.copied().collect();
+        out.close();
         (overlapping, out)
     })?;
     let mut sets = UnionFind::new(soup.n_facets());
     for (overlapping, part) in parts {
-        contacts.append(part, soup.geometry.n_points() as u32);
+        contacts.push(part);
         overlapping.into_iter().for_each(|[f, g]| _ = sets.union(f, g));
     }
     Ok(sets)

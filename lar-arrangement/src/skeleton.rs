@@ -17,6 +17,7 @@ use crate::vertices::Vertices;
 use faces::Faces;
 use lar_core::Cells;
 use numbering::Numbering;
+use std::mem::take;
 use std::ops::Range;
 
 /// Vertices, edges and faces of the arrangement; no 3-cells yet.
@@ -90,7 +91,7 @@ impl Skeleton {
         cuts: &Cuts,
     ) -> Self {
         unify(&mut fragments, &mut vertices, soup);
-        let parts = Parts { fragments: &fragments, groups, soup };
+        let parts = Parts::new(&fragments, groups, soup);
         let n_vertices = vertices.list.len();
         let ((vertices, compact), mut numbering) = parallel::join(
             || used_vertices(&parts, vertices.list),
@@ -183,14 +184,9 @@ impl Skeleton {
 /// Gives the new vertices of all parts their numbers.
 fn unify(fragments: &mut [Fragments], vertices: &mut Vertices, soup: &Soup) {
     let n_base = vertices.list.len() as u32;
-    let lengths = fragments.iter().map(|part| part.vertices.len() as u32);
-    let begins = offsets(lengths.collect::<Vec<_>>().into_iter());
-    let mut found = Vec::with_capacity(begins.last().map_or(0, |&n| n as usize));
-    for part in fragments.iter_mut() {
-        found.append(&mut part.vertices);
-        part.vertices = Vec::new();
-    }
-    let numbers = vertices.unify(&found, &soup.geometry);
+    let found: Vec<Vec<Vertex>> = fragments.iter_mut().map(|part| take(&mut part.vertices)).collect();
+    let begins = offsets(found.iter().map(|part| part.len() as u32));
+    let numbers = vertices.unify(&parallel::joined(found), &soup.geometry);
     let parts = begins.into_iter().zip(fragments.iter_mut()).collect();
     parallel::each(parts, |(begin, part): (u32, &mut Fragments)| {
         for v in part.pieces.iter_mut().flat_map(|piece| &mut piece.ends).filter(|v| **v >= n_base) {
@@ -202,22 +198,27 @@ fn unify(fragments: &mut [Fragments], vertices: &mut Vertices, soup: &Soup) {
 /// All that the skeleton is made of.
 struct Parts<'a> {
     fragments: &'a [Fragments],
+    /// The number of the first piece of each part among those of all parts.
+    first_pieces: Vec<u32>,
     groups: &'a Groups,
     soup: &'a Soup,
 }
 
 impl<'a> Parts<'a> {
-    /// The groups in their order.
+    fn new(fragments: &'a [Fragments], groups: &'a Groups, soup: &'a Soup) -> Self {
+        let first_pieces = offsets(fragments.iter().map(|part| part.pieces.len() as u32));
+        Self { fragments, first_pieces, groups, soup }
+    }
+
+    /// The groups of a part in their order.
+    fn groups_of(&self, part: usize) -> impl Iterator<Item = Group<'a>> + use<'a> {
+        let (first_piece, part) = (self.first_pieces[part], &self.fragments[part]);
+        (0..part.group_ends.len()).map(move |group| Group { part, group, first_piece })
+    }
+
+    /// All groups in their order.
     fn each_group(&self) -> impl Iterator<Item = Group<'a>> {
-        let begins = self.fragments.iter().scan((0, 0), |(pieces, half_edges), part| {
-            let begin = (*pieces, *half_edges);
-            *pieces += part.pieces.len() as u32;
-            *half_edges += part.half_edges.len();
-            Some((part, begin))
-        });
-        begins.flat_map(|(part, (first_piece, first_half_edge))| {
-            (0..part.group_ends.len()).map(move |group| Group { part, group, first_piece, first_half_edge })
-        })
+        (0..self.fragments.len()).flat_map(|part| self.groups_of(part))
     }
 
     fn sum(&self, of: impl Fn(&Fragments) -> usize) -> usize {
@@ -232,8 +233,6 @@ struct Group<'a> {
     group: usize,
     /// The number of the first piece of its part among those of all parts.
     first_piece: u32,
-    /// The same for half-edges.
-    first_half_edge: usize,
 }
 
 impl Group<'_> {
@@ -249,15 +248,26 @@ impl Group<'_> {
         &self.part.parents[range_before(&self.part.parent_ends, face)]
     }
 
-    /// The half-edges of a loop in its part.
-    fn half_edges(&self, cycle: usize) -> Range<usize> {
-        range_before(&self.part.loop_ends, cycle)
+    /// The half-edges of a loop, as its part has them.
+    fn half_edges(&self, cycle: usize) -> &[u32] {
+        &self.part.half_edges[range_before(&self.part.loop_ends, cycle)]
+    }
+
+    /// Those of all loops.
+    fn all_half_edges(&self) -> &[u32] {
+        let Range { start, end } = self.faces();
+        let of_faces = [start, end].map(|face| end_before(&self.part.face_ends, face));
+        let [start, end] = of_faces.map(|cycle| end_before(&self.part.loop_ends, cycle));
+        &self.part.half_edges[start..end]
     }
 }
 
 fn range_before(ends: &[u32], i: usize) -> Range<usize> {
-    let begin = if i == 0 { 0 } else { ends[i - 1] as usize };
-    begin..ends[i] as usize
+    end_before(ends, i)..ends[i] as usize
+}
+
+fn end_before(ends: &[u32], i: usize) -> usize {
+    if i == 0 { 0 } else { ends[i - 1] as usize }
 }
 
 /// The vertices that edges end at, in their order, and the new number of each (only those of used ones count); none when all

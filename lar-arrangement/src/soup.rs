@@ -64,9 +64,10 @@ impl Placed {
         error: impl Fn(&Surface, f64) -> f64 + Sync + Send,
     ) -> Result<Self, ArrangementError> {
         let hulls = surfaces.iter().map(checked).collect::<Result<Vec<Aabb>, _>>()?;
-        let grid = fitted_grid(&hulls);
+        let all = hulls.iter().fold(Aabb::EMPTY, |all, hull| all.joined(hull));
+        let grid = fitted_grid(&all);
         // The vertices of all surfaces are numbered one after the other.
-        let order = order_of(surfaces, &hulls);
+        let order = order_of(surfaces, &hulls, &all);
         let nth = |i: usize| &surfaces[order[i] as usize];
         let begins = offsets_of_lengths((0..order.len()).map(|i| nth(i).points.len() as u32));
         let snapped = parallel::map_lists(&begins, |i, v| grid.snap(nth(i).points.xyz(v)));
@@ -367,21 +368,19 @@ fn checked(surface: &Surface) -> Result<Aabb, ArrangementError> {
     Ok(all)
 }
 
-fn fitted_grid(hulls: &[Aabb]) -> Grid {
-    let all = hulls.iter().fold(Aabb::EMPTY, |all, hull| all.joined(hull));
+fn fitted_grid(all: &Aabb) -> Grid {
     let is_empty = all.lo[0] > all.hi[0];
     if is_empty { Grid::fitted([0.0; 3], [0.0; 3]) } else { Grid::fitted(all.lo, all.hi) }
 }
 
 /// The order in which the vertices and faces of surfaces are numbered: that of the input, or where there are many that of a
 /// space-filling curve. What is near each other in space then lies near each other in memory, too.
-fn order_of(surfaces: &[Surface], hulls: &[Aabb]) -> Vec<u32> {
+fn order_of(surfaces: &[Surface], hulls: &[Aabb], all: &Aabb) -> Vec<u32> {
     let n = surfaces.len();
     if n < MANY_SURFACES || surfaces.iter().map(Surface::n_faces).sum::<usize>() < MANY_FACES {
         return (0..n as u32).collect();
     }
-    let all = hulls.iter().fold(Aabb::EMPTY, |all, hull| all.joined(hull));
-    curve::z_order(&all, n, |i| hulls[i as usize])
+    curve::z_order(all, n, |i| hulls[i as usize])
 }
 
 /// The box around the points of a surface; refuses those that are not finite.

@@ -1,12 +1,14 @@
 //! Stage 2c: every input edge is split once, globally, at all points found on it; both its facets see the same
 //! pieces. Also the lists of what lies inside each facet.
 
+use crate::counting;
 use crate::crossing::{Contacts, Segment};
 use crate::kernel::{Along, Sign, Vertex};
 use crate::marks::Marks;
 use crate::parallel;
 use crate::soup::Soup;
 use crate::vertices::Vertices;
+use std::mem::take;
 
 /// The contacts of all facets, by edge and by facet.
 #[derive(Debug)]
@@ -61,24 +63,33 @@ impl<T> Sparse<T> {
 
 impl Cuts {
     /// Unifies the vertices of the contacts and sorts everything.
-    pub(crate) fn new(soup: &Soup, contacts: Contacts, vertices: &mut Vertices) -> Self {
+    pub(crate) fn new(soup: &Soup, mut contacts: Vec<Contacts>, vertices: &mut Vertices) -> Self {
         let geometry = &soup.geometry;
         let n_points = geometry.n_points() as u32;
-        let Contacts { vertices: found, splits, segments, touches, .. } = contacts;
-        let ids = vertices.unify(&found, geometry);
-        drop(found);
-        let id = |v: u32| if v < n_points { v } else { ids[(v - n_points) as usize] };
+        let found: Vec<Vec<Vertex>> = contacts.iter_mut().map(|chunk| take(&mut chunk.vertices)).collect();
+        let begins = counting::offsets(found.iter().map(|chunk| chunk.len() as u32));
+        let ids = vertices.unify(&parallel::joined(found), geometry);
+        // The items of the chunks with their vertices as `id` has them.
+        let chunks = || contacts.iter().zip(&begins);
+        let id = |begin: u32, v: u32| if v < n_points { v } else { ids[(begin + (v - n_points)) as usize] };
         let inside_edges = || {
-            let mut splits: Vec<(u32, u32)> = splits.into_iter().map(|(e, v)| (e, id(v))).collect();
+            let mut splits = Vec::with_capacity(chunks().map(|(chunk, _)| chunk.splits.len()).sum());
+            for (chunk, &begin) in chunks() {
+                splits.extend(chunk.splits.iter().map(|&(e, v)| (e, id(begin, v))));
+            }
             splits.sort_unstable();
             splits.dedup();
             sorted_along_edges(soup, splits, &vertices.list)
         };
         let inside_facets = || {
-            let mut segments: Vec<Segment> =
-                segments.into_iter().map(|s| Segment { ends: s.ends.map(id), ..s }).collect();
+            let mut segments = Vec::with_capacity(chunks().map(|(chunk, _)| chunk.segments.len()).sum());
+            let mut touches: Vec<(u32, u32)> = Vec::new();
+            for (chunk, &begin) in chunks() {
+                let with_ids = |s: &Segment| Segment { ends: s.ends.map(|v| id(begin, v)), ..*s };
+                segments.extend(chunk.segments.iter().map(with_ids));
+                touches.extend(chunk.touches.iter().map(|&(f, v)| (f, id(begin, v))));
+            }
             segments.sort_by_key(|s| (s.facet, s.other, s.ends));
-            let mut touches: Vec<(u32, u32)> = touches.into_iter().map(|(f, v)| (f, id(v))).collect();
             touches.sort_unstable();
             touches.dedup();
             let n = soup.n_facets();

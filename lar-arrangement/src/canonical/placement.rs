@@ -224,6 +224,7 @@ impl<'a> Placement<'a> {
         let canonical = CanonicalPoints {
             entry,
             rational: parallel::map_light(rational.len(), |i| self.point(distinct[rational[i] as usize])),
+            positions: parallel::map_light(rational.len(), |i| self.rounded(distinct[rational[i] as usize])),
             planes,
             planes_of_point: self.planes_of(&distinct, &first),
         };

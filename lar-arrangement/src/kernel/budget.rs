@@ -134,6 +134,7 @@ fn extreme(points: &[[i64; 3]], random: &mut Random) -> CanonicalPoints {
         });
         let point = HPointOf::on_planes([&planes[0], &planes[1], &planes[2]]);
         out.rational.extend(point);
+        out.positions.extend(point.map(|point| point.rounded()));
         out.entry.push(if point.is_some() { out.rational.len() as u32 } else { 0 });
     }
     out

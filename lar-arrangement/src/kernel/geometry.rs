@@ -95,6 +95,8 @@ pub(crate) struct CanonicalPoints {
     /// For each point 0, or the number of its entry in `rational`, counted from 1; empty when there is none.
     pub entry: Vec<u32>,
     pub rational: Vec<RationalPoint>,
+    /// The positions of the rational points, correctly rounded.
+    pub positions: Vec<[f64; 3]>,
     /// Planes with coefficients of 41 bits and offsets of 83.
     pub planes: Vec<Plane>,
     /// The shared planes that each point lies on, ascending; empty when there is none.
@@ -107,9 +109,7 @@ pub(crate) struct Geometry {
     /// Grid points; of a rational point the nearest one.
     points: Vec<[i64; 3]>,
     canonical: CanonicalPoints,
-    /// Positions of the rational points, correctly rounded.
-    positions: Vec<[f64; 3]>,
-    /// The same in about 106 bits.
+    /// The positions of the rational points in about 106 bits.
     close_positions: Vec<[Double; 3]>,
     /// The canonical planes, then others that facets share.
     shared_planes: Vec<SharedPlane>,
@@ -137,12 +137,12 @@ impl Geometry {
 
     /// Points that may be rational, and planes that facets will share.
     pub(crate) fn canonical(points: Vec<[i64; 3]>, canonical: CanonicalPoints) -> Self {
-        let shared_planes: Vec<SharedPlane> = canonical.planes.iter().map(Plane::widened).collect();
+        let CanonicalPoints { rational, planes, .. } = &canonical;
+        let shared_planes: Vec<SharedPlane> = parallel::map_light(planes.len(), |i| planes[i].widened());
         Self {
             points,
-            positions: canonical.rational.iter().map(HPointOf::rounded).collect(),
-            close_positions: canonical.rational.iter().map(approx_point).collect(),
-            close_planes: shared_planes.iter().map(ApproxPlane::new).collect(),
+            close_positions: parallel::map_light(rational.len(), |i| approx_point(&rational[i])),
+            close_planes: parallel::map_light(planes.len(), |i| ApproxPlane::new(&shared_planes[i])),
             shared_planes,
             reach: if canonical.rational.is_empty() { Reach::Grid } else { Reach::Canonical },
             first_on_plane: vec![u32::MAX; canonical.planes.len()],
@@ -198,7 +198,7 @@ impl Geometry {
     pub(crate) fn position(&self, p: u32) -> [f64; 3] {
         match self.rational_entry(p) {
             None => self.points[p as usize].map(|x| x as f64),
-            Some(entry) => self.positions[entry],
+            Some(entry) => self.canonical.positions[entry],
         }
     }
 

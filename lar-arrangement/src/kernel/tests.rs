@@ -146,6 +146,7 @@ fn canonical(points: &[[i64; 3]], random: &mut Random) -> CanonicalPoints {
             .filter(|point| exact(point).is_within_range() && !on.is_empty());
         if let Some(point) = rational {
             out.rational.push(point);
+            out.positions.push(point.rounded());
             out.entry.push(out.rational.len() as u32);
         } else {
             on.clear();

@@ -37,7 +37,7 @@ impl Faces {
             let mut faces = Self::with_room(
                 n_facets + n_faces,
                 n_facets + n_loops,
-                n_half_edges as usize + numbering.half_edges.len(),
+                n_half_edges as usize + parts.sum(|part| part.half_edges.len()),
             );
             let mut led = groups[groups.partition_point(|group| (group.0 as usize) < range.start)..].iter();
             let mut next = led.next();
@@ -96,9 +96,13 @@ impl Faces {
 
     fn push_group(&mut self, group: &Group<'_>, numbering: &Numbering<'_>) {
         let first = self.parent_offsets.len() as u32 - 1;
-        let half_edges = &numbering.half_edges[group.first_half_edge..];
+        let mut half_edges = Vec::new();
         for face in group.faces() {
-            group.loops(face).for_each(|l| self.loops.push(&half_edges[group.half_edges(l)]));
+            for cycle in group.loops(face) {
+                half_edges.clear();
+                half_edges.extend(group.half_edges(cycle).iter().map(|&h| numbering.half_edge(group, h)));
+                self.loops.push(&half_edges);
+            }
             self.close(group.parents(face));
         }
         self.of_groups.push(first..self.parent_offsets.len() as u32 - 1);

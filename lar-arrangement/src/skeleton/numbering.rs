@@ -11,6 +11,7 @@
 //! ```
 
 use super::{Group, Parts};
+use crate::counting;
 use crate::fragment::{Fragments, Piece, WHOLE};
 use crate::half_edges::{self, HalfEdges};
 use crate::kernel::Way;
@@ -18,73 +19,184 @@ use crate::parallel;
 use crate::soup::Soup;
 use crate::split::Cuts;
 use rustc_hash::FxHashMap;
-use std::iter::Peekable;
 use std::ops::Range;
-use std::vec::IntoIter;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
-/// An edge that no face has yet.
-const NOT_SEEN: u32 = u32::MAX;
-
-/// Something that is not as in the input.
-struct Change {
-    /// Before this edge of the input.
-    at: u32,
-    /// Another one is added; without, the edge itself is left out.
-    added: Option<[u32; 2]>,
-    /// What is added (modulo 2^32) to the number of an edge behind, up to the next change.
-    shift: u32,
-}
+/// No edge, and no step that has one.
+const NONE: u32 = u32::MAX;
 
 /// What edges become.
 pub(super) struct Numbering<'a> {
-    soup: &'a Soup,
-    cuts: &'a Cuts,
+    parts: &'a Parts<'a>,
     /// The edge that each edge of the input is: of those at the border, and of all once the edges are written.
     whole: Vec<u32>,
-    /// Which edges of the input are at the border.
-    is_border: Vec<bool>,
-    /// Those that have not been passed.
-    ahead: Peekable<IntoIter<u32>>,
-    /// The first edge of the input that no face up to here has.
-    at: u32,
-    /// Ascending.
-    changes: Vec<Change>,
-    /// The half-edges of all groups' loops.
-    pub half_edges: Vec<u32>,
+    /// The edges of the input that are left out where they were, ascending.
+    border: Vec<u32>,
+    /// Those that come instead, in their order.
+    added: Vec<Added>,
+    /// The half-edge that each piece of each part is.
+    half_edges_of_pieces: Vec<u32>,
     /// The edges that are no edges of the input, ascending.
     pub pieces: Vec<u32>,
     /// Their directions, from the smaller end to the larger.
     pub directions: Vec<Way>,
-    /// Whether there may be soft edges.
-    any_soft: bool,
-    /// Edges that stay because of a piece.
-    hard: Vec<u32>,
-    /// Input edges that pieces between points of the input may be, and others, by their ends.
-    input_edges: FxHashMap<[u32; 2], u32>,
-    /// Of all pieces of all parts, the first one with the same ends.
-    first_piece: Vec<u32>,
-    /// The edge that each first piece is.
-    edge_of_first: Vec<u32>,
+}
+
+/// An edge that is not where the input has it.
+#[derive(Clone, Copy)]
+struct Added {
+    /// Before this edge of the input.
+    at: u32,
+    ends: [u32; 2],
 }
 
 impl<'a> Numbering<'a> {
     /// Numbers what is at the border or new. O(n), and hashing for pieces between points of the input.
-    pub(super) fn new(parts: &Parts<'a>, cuts: &'a Cuts, n_vertices: usize) -> Self {
-        let mut out = Self::unnumbered(parts, cuts, n_vertices);
-        let (mut leaders, mut groups) = (parts.groups.leaders.iter().peekable(), parts.each_group());
-        for (facet, seen) in out.stops() {
-            if !parts.groups.is_member[facet as usize] {
-                out.number_facet(facet, seen);
-            } else if leaders.next_if_eq(&&facet).is_some() {
-                out.pass(seen);
-                groups.next().into_iter().for_each(|group| out.number_group(&group));
+    ///
+    /// Each part of the groups tells by itself what it adds and in which order. What all of it is numbered is known once it is
+    /// known how much the parts before it add.
+    pub(super) fn new(parts: &'a Parts<'a>, cuts: &Cuts, n_vertices: usize) -> Self {
+        let fragments = parts.fragments;
+        let border = Border::new(parts, cuts);
+        let steps = Steps::new(parts, &border);
+        let mut first_piece = first_pieces(fragments, n_vertices);
+        let n_pieces = || fragments.iter().map(|part| part.pieces.len());
+        let mut edge_of_first = parallel::map_light(first_piece.len(), |_| NONE);
+        parallel::map_each(parallel::cut(&mut edge_of_first, n_pieces()), |part, own| {
+            steps.note_users(parts, part, &border, &first_piece, own);
+        });
+        let of_parts = parallel::map_each(parallel::cut(&mut edge_of_first, n_pieces()), |part, own| {
+            steps.additions(parts, part, &border, &first_piece, own)
+        });
+        debug_assert!(
+            first_piece.iter().all(|&first| edge_of_first[first as usize] != NONE),
+            "a piece is in no loop"
+        );
+        let n_before = counting::offsets(of_parts.iter().map(|part| part.added.len() as u32));
+        let pieces = parallel::map_each(parallel::cut(&mut edge_of_first, n_pieces()), |part, own| {
+            let additions = &of_parts[part];
+            let numbers = border.numbers(&additions.added, n_before[part]);
+            let is_added = |edge: &&mut u32| **edge & WHOLE == 0;
+            own.iter_mut().filter(is_added).for_each(|edge| *edge = numbers[*edge as usize]);
+            for &(edge, addition) in &additions.whole {
+                border.state[edge as usize].store(numbers[addition as usize], Relaxed);
             }
+            additions.pieces.iter().map(|&addition| numbers[addition as usize]).collect::<Vec<u32>>()
+        });
+        let whole: Vec<u32> = border.state.into_iter().map(AtomicU32::into_inner).collect();
+        let own = parallel::cut(&mut first_piece, n_pieces()).into_iter().zip(fragments).collect();
+        parallel::each(own, |(half_edges, part): (&mut [u32], &Fragments)| {
+            for (half_edge, piece) in half_edges.iter_mut().zip(&part.pieces) {
+                let edge = match edge_of_first[*half_edge as usize] {
+                    edge if edge & WHOLE == 0 => edge,
+                    marked => whole[(marked ^ WHOLE) as usize],
+                };
+                *half_edge = 2 * edge + u32::from(piece.ends[0] > piece.ends[1]);
+            }
+        });
+        let (added, directions) = of_parts.into_iter().map(|part| (part.added, part.directions)).unzip();
+        Self {
+            parts,
+            whole,
+            border: border.edges,
+            added: parallel::joined(added),
+            half_edges_of_pieces: first_piece,
+            pieces: parallel::concat(&pieces),
+            directions: parallel::joined(directions),
         }
-        out.pass(out.soup.edges.len() as u32);
-        out
     }
 
-    fn unnumbered(parts: &Parts<'a>, cuts: &'a Cuts, n_vertices: usize) -> Self {
+    /// The half-edge that one of a group's is, once the edges are written.
+    pub(super) fn half_edge(&self, group: &Group<'_>, half_edge: u32) -> u32 {
+        match half_edge & WHOLE {
+            0 => self.half_edges_of_pieces[(group.first_piece + half_edge / 2) as usize] ^ (half_edge % 2),
+            _ => self.whole_half_edge(half_edge ^ WHOLE),
+        }
+    }
+
+    /// The half-edge that a directed edge of the input is, once the edges are written.
+    pub(super) fn whole_half_edge(&self, code: u32) -> u32 {
+        2 * self.whole[(code / 2) as usize] + code % 2
+    }
+
+    /// Writes the ends of all edges, with new numbers for the vertices, and notes what became of the input's. O(n).
+    pub(super) fn edges(&mut self, new_vertex: impl Fn(u32) -> u32 + Sync + Send) -> Vec<[u32; 2]> {
+        let (old, border, added) = (&self.parts.soup.edges, &self.border, &self.added);
+        let n_edges = old.len() + added.len() - border.len();
+        let mut parts = parallel::map_parts(&mut self.whole, |range, whole| {
+            // What is added behind all edges of the input belongs to the last part.
+            let is_before = |edge: u32, end: usize| (edge as usize) < end || end == old.len();
+            let begins = |end: usize| match end {
+                0 => (0, 0),
+                _ => (
+                    border.partition_point(|&edge| is_before(edge, end)),
+                    added.partition_point(|added| is_before(added.at, end)),
+                ),
+            };
+            let (from, to) = (begins(range.start), begins(range.end));
+            let mut border = border[from.0..to.0].iter().peekable();
+            let mut added = added[from.1..to.1].iter().peekable();
+            // The first part gets room for the others.
+            let room = if range.start == 0 { n_edges } else { range.len() + to.1 - from.1 };
+            let mut out: Vec<[u32; 2]> = Vec::with_capacity(room);
+            let first = (range.start + from.1 - from.0) as u32;
+            let mut at = range.start;
+            loop {
+                let next = border.peek().map_or(range.end, |&&edge| edge as usize);
+                let next = added.peek().map_or(next, |added| next.min(added.at as usize));
+                let kept = whole[at - range.start..next - range.start].iter_mut();
+                kept.zip(first + out.len() as u32..).for_each(|(edge, number)| *edge = number);
+                out.extend(old[at..next].iter().map(|ends| ends.map(&new_vertex)));
+                at = next;
+                if let Some(added) = added.next_if(|added| added.at as usize == at) {
+                    out.push(added.ends.map(&new_vertex));
+                } else if border.next().is_some() {
+                    at += 1;
+                } else {
+                    return out;
+                }
+            }
+        })
+        .into_iter();
+        let mut edges = parts.next().expect("there is a thread");
+        parts.for_each(|part| edges.extend_from_slice(&part));
+        edges
+    }
+
+    /// Whether each of n edges is only a diagonal inside a polygon, once they are written; nothing when none can be.
+    pub(super) fn soft(&self, n: usize) -> Vec<bool> {
+        let soup = self.parts.soup;
+        if !soup.has_soft_edges() {
+            return Vec::new();
+        }
+        let mut soft = vec![true; n];
+        let stays = |edge: &u32| !soup.is_soft(*edge);
+        let whole = (0..self.whole.len() as u32).filter(stays).map(|edge| self.whole[edge as usize]);
+        let pieces =
+            self.parts.fragments.iter().flat_map(|part| &part.pieces).zip(&self.half_edges_of_pieces);
+        let hard = pieces.filter(|(piece, _)| !piece.soft).map(|(_, half_edge)| half_edge / 2);
+        for edge in whole.filter(|&edge| edge != NONE).chain(hard) {
+            soft[edge as usize] = false;
+        }
+        soft
+    }
+}
+
+/// The edges of the input that faces need not have in the order of the input.
+struct Border<'a> {
+    soup: &'a Soup,
+    cuts: &'a Cuts,
+    is_border: Vec<bool>,
+    /// They, ascending.
+    edges: Vec<u32>,
+    /// Edges of the input that pieces between points of the input may be, and others, by their ends.
+    input_edges: FxHashMap<[u32; 2], u32>,
+    /// Of each edge at the border the first step that has it, nothing while it is given a place, then its number.
+    state: Vec<AtomicU32>,
+}
+
+impl<'a> Border<'a> {
+    fn new(parts: &Parts<'a>, cuts: &'a Cuts) -> Self {
         let soup = parts.soup;
         let mut is_border = vec![false; soup.edges.len()];
         for &code in parts.groups.members.indices().iter().flat_map(|&f| &soup.facet_edges[f as usize]) {
@@ -103,202 +215,232 @@ impl<'a> Numbering<'a> {
                 is_border[edge as usize] = true;
             }
         }
-        let border = parallel::select(is_border.len(), |edge| is_border[edge as usize]);
-        let mut whole = parallel::zeros(soup.edges.len());
-        border.iter().for_each(|&edge| whole[edge as usize] = NOT_SEEN);
-        let [tails, heads] = [0, 1].map(|end| {
-            let lengths = parts.fragments.iter().map(|part| part.pieces.len());
-            let mut ends = parallel::zeros(lengths.clone().sum());
-            let of_parts = parallel::cut(&mut ends, lengths).into_iter().zip(parts.fragments).collect();
-            parallel::each(of_parts, |(ends, part): (&mut [u32], &Fragments)| {
-                ends.iter_mut().zip(&part.pieces).for_each(|(to, piece)| *to = piece.ends[end]);
-            });
-            ends
-        });
-        let half_edges = HalfEdges::Listed { tails: &tails, heads: &heads };
-        let first_piece = half_edges::first_of_edge(n_vertices, half_edges);
-        let n_pieces = first_piece.iter().zip(0u32..).filter(|(first, piece)| *first == piece).count();
-        Self {
-            soup,
-            cuts,
-            whole,
-            is_border,
-            at: 0,
-            // A piece is one edge at most; one at the border is left out where it was, and may be added elsewhere.
-            changes: Vec::with_capacity(n_pieces + 2 * border.len()),
-            ahead: border.into_iter().peekable(),
-            half_edges: Vec::with_capacity(parts.sum(|part| part.half_edges.len())),
-            pieces: Vec::with_capacity(n_pieces),
-            directions: Vec::with_capacity(n_pieces),
-            any_soft: soup.has_soft_edges(),
-            hard: Vec::new(),
-            input_edges,
-            edge_of_first: vec![NOT_SEEN; first_piece.len()],
-            first_piece,
-        }
+        let edges = parallel::select(is_border.len(), |edge| is_border[edge as usize]);
+        let state = parallel::map_light(is_border.len(), |_| AtomicU32::new(NONE));
+        Self { soup, cuts, is_border, edges, input_edges, state }
     }
 
-    /// The facets with an edge at the border, ascending, and the first edge that no facet before each has.
-    fn stops(&self) -> Vec<(u32, u32)> {
-        let facets = &self.soup.facet_edges;
-        if self.ahead.len() == 0 {
+    /// The edge of the input that a piece is, with the ends of one that is not split.
+    fn edge_of_piece(&self, piece: &Piece) -> Option<u32> {
+        let ends = ends_of(piece);
+        if ends[1] as usize >= self.soup.geometry.n_points() {
+            return None;
+        }
+        let is_whole = |&edge: &u32| self.cuts.inner.of(edge).is_empty();
+        self.input_edges.get(&ends).copied().filter(is_whole)
+    }
+
+    /// The numbers of some edges that are added one after the other, behind so many others.
+    fn numbers(&self, added: &[Added], n_before: u32) -> Vec<u32> {
+        let first = added.first().map_or(0, |added| added.at);
+        let mut left_out = self.edges.partition_point(|&edge| edge < first);
+        let number = |(added, n_added): (&Added, u32)| {
+            left_out += self.edges[left_out..].iter().take_while(|&&edge| edge < added.at).count();
+            added.at - left_out as u32 + n_added
+        };
+        added.iter().zip(n_before..).map(number).collect()
+    }
+}
+
+/// What may have edges that are at the border or new, in the order of the faces: facets in no group, and groups.
+struct Steps {
+    list: Vec<Step>,
+    /// Those of each part of the groups, and of facets before its first group, or behind its last.
+    of_parts: Vec<Range<usize>>,
+}
+
+#[derive(Clone, Copy)]
+struct Step {
+    /// The first one, for a group.
+    facet: u32,
+    /// The first edge of the input that no facet before has.
+    seen: u32,
+    is_group: bool,
+}
+
+/// What a part adds.
+#[derive(Default)]
+struct Additions {
+    added: Vec<Added>,
+    /// Which of these are edges of the input: the edge, and its place.
+    whole: Vec<(u32, u32)>,
+    /// Which are not, and their directions.
+    pieces: Vec<u32>,
+    directions: Vec<Way>,
+}
+
+impl Steps {
+    fn new(parts: &Parts<'_>, border: &Border<'_>) -> Self {
+        let list = Self::all(parts, border);
+        let first_of = |leader: u32| list.partition_point(|step| step.facet < leader);
+        let mut n_groups = 0;
+        let mut begins: Vec<usize> = Vec::with_capacity(parts.fragments.len() + 1);
+        for part in parts.fragments {
+            begins.push(if n_groups == 0 { 0 } else { first_of(parts.groups.leaders[n_groups]) });
+            n_groups += part.group_ends.len();
+        }
+        begins.push(list.len());
+        let of_parts = begins.windows(2).map(|w| w[0]..w[1]).collect();
+        Self { list, of_parts }
+    }
+
+    fn all(parts: &Parts<'_>, border: &Border<'_>) -> Vec<Step> {
+        let facets = &parts.soup.facet_edges;
+        if border.edges.is_empty() {
             return Vec::new();
         }
         let of_parts = parallel::map(parallel::n_threads(), |part| {
-            let (mut stops, mut seen) = (Vec::new(), 0);
+            let (mut steps, mut seen) = (Vec::new(), 0);
             let range = parallel::part_of(facets.len(), part);
+            let leaders = &parts.groups.leaders;
+            let mut leaders = leaders[leaders.partition_point(|&leader| (leader as usize) < range.start)..]
+                .iter()
+                .peekable();
             for (codes, facet) in facets.iter().skip(range.start).take(range.len()).zip(range.start as u32..)
             {
-                if codes.iter().any(|&code| self.is_border[(code / 2) as usize]) {
-                    stops.push((facet, seen));
+                if codes.iter().any(|&code| border.is_border[(code / 2) as usize]) {
+                    let is_group = leaders.next_if_eq(&&facet).is_some();
+                    if is_group || !parts.groups.is_member[facet as usize] {
+                        steps.push(Step { facet, seen, is_group });
+                    }
                 }
                 seen = codes.iter().fold(seen, |seen, &code| seen.max(code / 2 + 1));
             }
-            (stops, seen)
+            (steps, seen)
         });
         let mut all = Vec::new();
         let mut before = 0;
-        for (stops, seen) in of_parts {
-            all.extend(stops.into_iter().map(|(facet, seen)| (facet, before.max(seen))));
+        for (steps, seen) in of_parts {
+            all.extend(steps.into_iter().map(|step| Step { seen: before.max(step.seen), ..step }));
             before = before.max(seen);
         }
         all
     }
 
-    /// Comes to an edge of the input. Those at the border that are passed are left out where they were.
-    fn pass(&mut self, edge: u32) {
-        self.at = edge;
-        while let Some(at) = self.ahead.next_if(|&at| at < edge) {
-            let shift = self.shift().wrapping_sub(1);
-            self.changes.push(Change { at, added: None, shift });
-        }
-    }
-
-    fn shift(&self) -> u32 {
-        self.changes.last().map_or(0, |change| change.shift)
-    }
-
-    fn add(&mut self, ends: [u32; 2]) -> u32 {
-        let shift = self.shift();
-        self.changes.push(Change { at: self.at, added: Some(ends), shift: shift.wrapping_add(1) });
-        self.at.wrapping_add(shift)
-    }
-
-    /// A facet in no group: numbers its edges at the border. No facet before has the edge `seen` or one behind.
-    fn number_facet(&mut self, facet: u32, mut seen: u32) {
-        for &code in &self.soup.facet_edges[facet as usize] {
-            if self.is_border[(code / 2) as usize] {
-                self.pass(seen);
-                self.whole_edge(code / 2);
+    /// Calls `visit` with each use of an edge of the input or of a piece in the steps of a part, in their order: with the step, the
+    /// edge of the input that no facet up to there has, and what it is a use of.
+    fn each_use(
+        &self,
+        parts: &Parts<'_>,
+        part: usize,
+        border: &Border<'_>,
+        mut visit: impl FnMut(u32, u32, Use),
+    ) {
+        let steps = self.of_parts[part].clone();
+        let mut groups = parts.groups_of(part);
+        for (step, number) in self.list[steps.clone()].iter().zip(steps.start as u32..) {
+            if step.is_group {
+                let group = groups.next().expect("each group is a step");
+                for &h in group.all_half_edges() {
+                    let used = if h & WHOLE == 0 { Use::Piece(h / 2) } else { Use::Whole((h ^ WHOLE) / 2) };
+                    visit(number, step.seen, used);
+                }
+                continue;
             }
-            seen = seen.max(code / 2 + 1);
-        }
-    }
-
-    fn number_group(&mut self, group: &Group) {
-        let loops = group.faces().flat_map(|face| group.loops(face));
-        for h in loops.flat_map(|l| group.half_edges(l)).map(|i| group.part.half_edges[i]) {
-            let half_edge = match h & WHOLE {
-                0 => self.half_edge(group, h / 2) ^ (h % 2),
-                _ => 2 * self.whole_edge((h ^ WHOLE) / 2) + h % 2,
-            };
-            self.half_edges.push(half_edge);
-        }
-    }
-
-    /// The edge that one at the border is, if it is not split.
-    fn whole_edge(&mut self, edge: u32) -> u32 {
-        if self.whole[edge as usize] == NOT_SEEN {
-            self.whole[edge as usize] = self.add(self.soup.edges[edge as usize]);
-        }
-        self.whole[edge as usize]
-    }
-
-    /// The half-edge of a piece in its direction. A piece with the ends of an unsplit input edge is that edge.
-    fn half_edge(&mut self, group: &Group, piece: u32) -> u32 {
-        let first = self.first_piece[(group.first_piece + piece) as usize] as usize;
-        let piece = &group.part.pieces[piece as usize];
-        if self.edge_of_first[first] == NOT_SEEN {
-            self.edge_of_first[first] = self.edge_of_piece(piece);
-        }
-        let id = self.edge_of_first[first];
-        if self.any_soft && !piece.soft {
-            self.hard.push(id);
-        }
-        2 * id + u32::from(piece.ends[0] > piece.ends[1])
-    }
-
-    fn edge_of_piece(&mut self, piece: &Piece) -> u32 {
-        let ends = ends_of(piece);
-        let is_whole = |&edge: &u32| self.cuts.inner.of(edge).is_empty();
-        if (ends[1] as usize) < self.soup.geometry.n_points()
-            && let Some(edge) = self.input_edges.get(&ends).copied().filter(is_whole)
-        {
-            return self.whole_edge(edge);
-        }
-        let id = self.add(ends);
-        self.pieces.push(id);
-        let is_ascending = ends == piece.ends;
-        self.directions.push(if is_ascending { piece.direction } else { piece.direction.opposite() });
-        id
-    }
-
-    /// The half-edge that a directed edge of the input is, once the edges are written.
-    pub(super) fn whole_half_edge(&self, code: u32) -> u32 {
-        2 * self.whole[(code / 2) as usize] + code % 2
-    }
-
-    /// Writes the ends of all edges, with new numbers for the vertices, and notes what became of the input's. O(n).
-    pub(super) fn edges(&mut self, new_vertex: impl Fn(u32) -> u32 + Sync + Send) -> Vec<[u32; 2]> {
-        let (old, changes) = (&self.soup.edges, &self.changes);
-        let n = old.len();
-        // The first part gets room for the others.
-        let n_edges = (n as u32).wrapping_add(self.shift()) as usize;
-        let mut parts = parallel::map_parts(&mut self.whole, |range, whole| {
-            let changes_before = |edge: usize| changes.partition_point(|change| (change.at as usize) < edge);
-            let begin = changes_before(range.start);
-            let end = if range.end == n { changes.len() } else { changes_before(range.end) };
-            let mut out =
-                Vec::with_capacity(if range.start == 0 { n_edges } else { range.len() + end - begin });
-            let mut shift = begin.checked_sub(1).map_or(0, |last| changes[last].shift);
-            let mut from = range.start;
-            let mut keep = |out: &mut Vec<[u32; 2]>, kept: Range<usize>, shift: u32| {
-                out.extend(old[kept.clone()].iter().map(|ends| ends.map(&new_vertex)));
-                let whole = &mut whole[kept.start - range.start..kept.end - range.start];
-                whole
-                    .iter_mut()
-                    .zip(kept.start as u32..)
-                    .for_each(|(to, edge)| *to = edge.wrapping_add(shift));
-            };
-            for change in &changes[begin..end] {
-                let at = change.at as usize;
-                keep(&mut out, from..at, shift);
-                out.extend(change.added.map(|ends| ends.map(&new_vertex)));
-                from = at + usize::from(change.added.is_none());
-                shift = change.shift;
+            let mut seen = step.seen;
+            for &code in &border.soup.facet_edges[step.facet as usize] {
+                if border.is_border[(code / 2) as usize] {
+                    visit(number, seen, Use::Whole(code / 2));
+                }
+                seen = seen.max(code / 2 + 1);
             }
-            keep(&mut out, from..range.end, shift);
-            out
-        })
-        .into_iter();
-        let mut edges = parts.next().expect("there is a thread");
-        parts.for_each(|part| edges.extend_from_slice(&part));
-        edges
+        }
     }
 
-    /// Whether each of n edges is only a diagonal inside a polygon, once they are written; nothing when none can be.
-    pub(super) fn soft(&self, n: usize) -> Vec<bool> {
-        if !self.any_soft {
-            return Vec::new();
-        }
-        let mut soft = vec![true; n];
-        let stays = |edge: &u32| !self.soup.is_soft(*edge);
-        let whole = (0..self.whole.len() as u32).filter(stays).map(|edge| self.whole[edge as usize]);
-        for edge in whole.filter(|&edge| edge != NOT_SEEN).chain(self.hard.iter().copied()) {
-            soft[edge as usize] = false;
-        }
-        soft
+    /// Notes the first step that has each edge of the border, and in `edge_of_first`, marked with `WHOLE`, which of a part's pieces
+    /// that are the first ones with their ends are edges of the input.
+    fn note_users(
+        &self,
+        parts: &Parts<'_>,
+        part: usize,
+        border: &Border<'_>,
+        first_piece: &[u32],
+        edge_of_first: &mut [u32],
+    ) {
+        let (pieces, begin) = (&parts.fragments[part].pieces, parts.first_pieces[part]);
+        self.each_use(parts, part, border, |step, _, used| {
+            let edge = match used {
+                Use::Whole(edge) => edge,
+                // One that is another's has a later step.
+                Use::Piece(piece) if first_piece[(begin + piece) as usize] == begin + piece => {
+                    let Some(edge) = border.edge_of_piece(&pieces[piece as usize]) else { return };
+                    edge_of_first[piece as usize] = WHOLE | edge;
+                    edge
+                }
+                Use::Piece(_) => return,
+            };
+            border.state[edge as usize].fetch_min(step, Relaxed);
+        });
     }
+
+    /// What a part adds. Its pieces that are the first ones with their ends, and no edges of the input, get their places among
+    /// these in `edge_of_first`.
+    fn additions(
+        &self,
+        parts: &Parts<'_>,
+        part: usize,
+        border: &Border<'_>,
+        first_piece: &[u32],
+        edge_of_first: &mut [u32],
+    ) -> Additions {
+        let mut out = Additions::default();
+        let (pieces, begin) = (&parts.fragments[part].pieces, parts.first_pieces[part]);
+        self.each_use(parts, part, border, |step, at, used| {
+            let place = out.added.len() as u32;
+            let edge = match used {
+                Use::Whole(edge) => edge,
+                Use::Piece(piece) => {
+                    // One that is first in another part is that part's.
+                    let Some(first) = first_piece[(begin + piece) as usize].checked_sub(begin) else {
+                        return;
+                    };
+                    let edge_of_first = &mut edge_of_first[first as usize];
+                    if *edge_of_first == NONE {
+                        *edge_of_first = place;
+                        let piece = &pieces[piece as usize];
+                        let (ends, way) = (ends_of(piece), piece.direction);
+                        out.added.push(Added { at, ends });
+                        out.pieces.push(place);
+                        out.directions.push(if ends == piece.ends { way } else { way.opposite() });
+                    }
+                    if *edge_of_first & WHOLE == 0 {
+                        return;
+                    }
+                    *edge_of_first ^ WHOLE
+                }
+            };
+            let state = &border.state[edge as usize];
+            // Nobody else changes the state of an edge that this step has first.
+            if state.load(Relaxed) == step {
+                state.store(NONE, Relaxed);
+                out.whole.push((edge, place));
+                out.added.push(Added { at, ends: border.soup.edges[edge as usize] });
+            }
+        });
+        out
+    }
+}
+
+/// What a face has in a loop.
+enum Use {
+    /// An edge of the input.
+    Whole(u32),
+    /// A piece of the part.
+    Piece(u32),
+}
+
+/// For each piece of each part the first one of all with the same ends.
+fn first_pieces(fragments: &[Fragments], n_vertices: usize) -> Vec<u32> {
+    let [tails, heads] = [0, 1].map(|end| {
+        let lengths = fragments.iter().map(|part| part.pieces.len());
+        let mut ends = parallel::zeros(lengths.clone().sum());
+        let of_parts = parallel::cut(&mut ends, lengths).into_iter().zip(fragments).collect();
+        parallel::each(of_parts, |(ends, part): (&mut [u32], &Fragments)| {
+            ends.iter_mut().zip(&part.pieces).for_each(|(to, piece)| *to = piece.ends[end]);
+        });
+        ends
+    });
+    half_edges::first_of_edge(n_vertices, HalfEdges::Listed { tails: &tails, heads: &heads })
 }
 
 /// The ends of a piece, the smaller first.
