@@ -23,11 +23,13 @@ import report  # noqa: E402
 
 # Turns on one thread, on two threads.
 REPETITIONS = {1: 5, 2: 3}
+# Turns of what is compared with itself: by threads, by size.
+TURNS = 3
 # Seconds after which a process is given up.
 LIMIT = 100
-# How long an operation is repeated in one process: the first one touches all its memory for the first time, and does not
-# count if there is another.
-SECONDS = 2.0
+# How long, and how often at most, an operation is repeated in one process: the first one touches all its memory for the
+# first time, and does not count if there is another.
+SECONDS, TIMES = 2.0, 25
 PACKAGES = {"trueform": "trueform==0.10.7", "manifold3d": "manifold3d==3.5.4", "meshlib": "meshlib==3.1.4.297"}
 RUST = ["manifold-rust", "boolmesh"]
 # Too many operands to be united two at a time, and nobody else's measure: for growth only.
@@ -59,7 +61,7 @@ class Comparison:
         return self.pinned(threads, *self.operation(threads, *options))
 
     def operation(self, threads, *options):
-        return [self.ours, "--threads", threads, "--repeat", "25", "--seconds", SECONDS, *options, "--json"]
+        return [self.ours, "--threads", threads, "--repeat", TIMES, "--seconds", SECONDS, *options, "--json"]
 
     def theirs(self, name, threads, operation):
         if name in RUST:
@@ -83,8 +85,19 @@ class Comparison:
             row[f"cells {threads}"] = self.run(engines, workload, "cells", threads)
         if os.cpu_count() > 1 and row["cells 1"]["lar"]["facets"] > report.LARGE:
             copies = [sys.executable, harness.HERE / "copies.py", 2, *self.operation(1)]
-            row["copies"] = self.run({"lar": self.lar(1), "two copies": copies}, workload, "copies", 2)
+            commands = {"lar": self.lar(1), "two threads": self.lar(2), "two copies": copies}
+            row["turns"] = harness.turns({name: [*command, workload] for name, command in commands.items()}, TURNS, LIMIT)
         return row
+
+    def grown(self, rows, workloads):
+        """The members of a family by turns, each in memory that its process has touched before: what only the size tells apart
+        has met the same minutes."""
+        commands = {}
+        for workload in workloads:
+            is_long = rows[workload]["cells 1"]["lar"]["repeat"] == 1
+            times = ["--repeat", 2, "--seconds", math.inf] if is_long else []
+            commands[workload] = [*self.lar(1), workload, *times]
+        return harness.turns(commands, TURNS, 3 * LIMIT)
 
     def run(self, engines, workload, operation, threads):
         family = self.too_large.setdefault((workload.split("-")[0], operation, threads), {})
@@ -138,6 +151,11 @@ def main():
         check(workload, rows[workload])
         results.write_text(json.dumps(rows, indent=1))
     rows = {workload: rows[workload] for workload in WORKLOADS if workload in rows}
+    for family in report.families(rows):
+        if set(family) & set(options.only):
+            for workload, result in comparison.grown(rows, family).items():
+                rows[workload]["growth"] = {"lar": result}
+            results.write_text(json.dumps(rows, indent=1))
     harness.write_section("space", report.section(rows))
     picture = harness.DOCUMENT.with_name("benchmarks-space.svg")
     harness.call(comparison.python, harness.HERE / "space" / "picture.py", results, picture)

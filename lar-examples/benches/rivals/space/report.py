@@ -75,14 +75,17 @@ def cells(rows):
 
 
 def halved(row, operation):
+    """With one thread and with two; by turns, where these were measured."""
     one, two = row[f"{operation} 1"]["lar"], row[f"{operation} 2"]["lar"]
+    if operation == "cells" and "turns" in row:
+        one, two = row["turns"]["lar"], row["turns"]["two threads"]
     return milliseconds(one, "wall"), milliseconds(two, "wall"), f"{one['wall'] / two['wall']:.2f}"
 
 
 def copies(row):
     """How many times as much two processes get done at once as one does alone."""
-    both = row.get("copies", {}).get("two copies")
-    return f"{2 * row['copies']['lar']['wall'] / both['wall']:.2f}" if times(both) else "–"
+    both = row.get("turns", {}).get("two copies")
+    return f"{2 * row['turns']['lar']['wall'] / both['wall']:.2f}" if times(both) else "–"
 
 
 def threads(rows):
@@ -96,6 +99,24 @@ def threads(rows):
              f"{row['boolean 2']['lar']['wall'] / row['boolean 2'][best]['wall']:.2f}" if best else "–"]
             for name, row in rows.items() if "cells 2" in row
             for best in [fastest(row["boolean 2"], "wall")]
+        ),
+    )  # fmt: skip
+
+
+def families(rows):
+    """Of each family what was measured, by sizes."""
+    named = ([f"{family}-{size}" for size in sizes] for family, sizes in GROWTH.items())
+    return [[w for w in workloads if w in rows] for workloads in named]
+
+
+def grown(rows):
+    yield from table(
+        ["workload", "ns per each", "times the family's least"],
+        (
+            [w, f"{unit(rows[w]['growth']['lar']):.0f}", f"{unit(rows[w]['growth']['lar']) / least:.2f}"]
+            for family in families(rows) if family and all("growth" in rows[w] for w in family)
+            for least in [min(unit(rows[w]["growth"]["lar"]) for w in family)]
+            for w in family
         ),
     )  # fmt: skip
 
@@ -149,10 +170,10 @@ def targets(rows):
                 yield results["lar"][key] / results[best][key], f"{w}, {best}"
 
     def growth():
-        for family, sizes in GROWTH.items():
-            units = [unit(rows[w]["cells 1"]["lar"]) for w in (f"{family}-{s}" for s in sizes) if w in rows]
+        for family in families(rows):
+            units = {w: unit(rows[w]["growth"]["lar"]) for w in family if "growth" in rows[w]}
             if len(units) > 1:
-                yield max(units) / min(units), family
+                yield max(units.values()) / min(units.values()), f"{max(units, key=units.get)}, {min(units, key=units.get)}"
 
     def memory(n_cells):
         for w, row in rows.items():
@@ -169,8 +190,8 @@ def targets(rows):
 
     def halves():
         for w, row in rows.items():
-            if "cells 2" in row and row["cells 1"]["lar"]["facets"] > LARGE:
-                one, two = row["cells 1"]["lar"], row["cells 2"]["lar"]
+            if "turns" in row:
+                one, two = row["turns"]["lar"], row["turns"]["two threads"]
                 yield two["wall"] / one["wall"], f"{w}: {one['wall'] / two['wall']:.2f} times as fast"
 
     three = RIVALS[:3]
@@ -238,7 +259,8 @@ cell.
 ### Two threads
 
 Wall time. *Two copies*: how many times as much two processes of one thread each get done at once as one of them alone. More than
-that no two threads can get out of the machine.
+that no two threads can get out of the machine. Where it is told, one thread, two, and the copies ran by turns, all of them
+three times.
 
 {text(threads(rows))}
 
@@ -247,6 +269,11 @@ that no two threads can get out of the machine.
 All cells, one thread; memory is the peak of the process during the operation beyond what it had before.
 
 {text(costs(rows))}
+
+Members of a family by turns, three times, each in memory that its process has touched before, so that only their sizes tell
+them apart:
+
+{text(grown(rows))}
 
 Share of the stages in the time, in per cent:
 
