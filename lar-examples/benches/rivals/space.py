@@ -25,8 +25,6 @@ import report  # noqa: E402
 REPETITIONS = {1: 5, 2: 3}
 # Turns of what is compared with itself: by threads, by size.
 TURNS = 3
-# Seconds after which a process is given up.
-LIMIT = 100
 # How long, and how often at most, an operation is repeated in one process: the first one touches all its memory for the
 # first time, and does not count if there is another.
 SECONDS, TIMES = 2.0, 25
@@ -86,7 +84,7 @@ class Comparison:
         if os.cpu_count() > 1 and row["cells 1"]["lar"]["facets"] > report.LARGE:
             copies = [sys.executable, harness.HERE / "copies.py", 2, *self.operation(1)]
             commands = {"lar": self.lar(1), "two threads": self.lar(2), "two copies": copies}
-            row["turns"] = harness.turns({name: [*command, workload] for name, command in commands.items()}, TURNS, LIMIT)
+            row["turns"] = harness.turns({name: [*command, workload] for name, command in commands.items()}, TURNS, harness.LIMIT)
         return row
 
     def grown(self, rows, workloads):
@@ -97,11 +95,11 @@ class Comparison:
             is_long = rows[workload]["cells 1"]["lar"]["repeat"] == 1
             times = ["--repeat", 2, "--seconds", math.inf] if is_long else []
             commands[workload] = [*self.lar(1), workload, *times]
-        return harness.turns(commands, TURNS, 3 * LIMIT)
+        return harness.turns(commands, TURNS, 3 * harness.LIMIT)
 
     def run(self, engines, workload, operation, threads):
         family = self.too_large.setdefault((workload.split("-")[0], operation, threads), {})
-        return harness.by_turns(engines, Path(workload), family, REPETITIONS[threads], LIMIT)
+        return harness.by_turns(engines, Path(workload), family, REPETITIONS[threads])
 
 
 def check(workload, row):
