@@ -110,7 +110,7 @@ def by_turns(engines, file, too_large, repetitions=REPETITIONS, limit=LIMIT):
     return {name: merged(results) for name, results in runs.items()}
 
 
-def turns(commands, repetitions, limit):
+def turns(commands, repetitions, limit=LIMIT):
     """Runs all commands by turns, however long they take: for each what `by_turns` returns."""
     runs = {name: [] for name in commands}
     for _ in range(repetitions):

@@ -84,7 +84,7 @@ class Comparison:
         if os.cpu_count() > 1 and row["cells 1"]["lar"]["facets"] > report.LARGE:
             copies = [sys.executable, harness.HERE / "copies.py", 2, *self.operation(1)]
             commands = {"lar": self.lar(1), "two threads": self.lar(2), "two copies": copies}
-            row["turns"] = harness.turns({name: [*command, workload] for name, command in commands.items()}, TURNS, harness.LIMIT)
+            row["turns"] = harness.turns({name: [*command, workload] for name, command in commands.items()}, TURNS)
         return row
 
     def grown(self, rows, workloads):
