@@ -7,6 +7,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::cell::Cell;
 use std::cmp::Ordering;
 use std::num::NonZeroUsize;
+use std::ops::Range;
 #[cfg(feature = "rayon")]
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::AtomicU32;
@@ -437,12 +438,15 @@ pub(crate) fn joined<T: Copy + Send + Sync>(lists: Vec<Vec<T>>) -> Vec<T> {
     }
     let mut ends: Vec<usize> = lists.iter().map(Vec::len).collect();
     (1..ends.len()).for_each(|list| ends[list] += ends[list - 1]);
-    // The list that each stretch of items begins in: from there on it is not far to that of any of them.
-    const STRETCH: usize = 1 << 10;
-    let first_lists = map_light(n.div_ceil(STRETCH), |i| ends.partition_point(|&end| end <= i * STRETCH));
+    // The lists that each stretch of items, as many as are worth a thread, begins and ends in: few, in which that of an item is
+    // looked for.
+    let list_of = |lists: Range<usize>, i: usize| lists.start + ends[lists].partition_point(|&end| end <= i);
+    let borders = map_light(n.div_ceil(WORTH_A_THREAD) + 1, |i| {
+        list_of(0..ends.len(), (i * WORTH_A_THREAD).min(n - 1))
+    });
     extend_light(&mut all, n, |i| {
-        let from = first_lists[i / STRETCH];
-        let list = from + ends[from..].iter().take_while(|&&end| end <= i).count();
+        let stretch = i / WORTH_A_THREAD;
+        let list = list_of(borders[stretch]..borders[stretch + 1], i);
         lists[list][i + lists[list].len() - ends[list]]
     });
     all
@@ -484,7 +488,7 @@ pub(crate) fn select(n: usize, keep: impl Fn(u32) -> bool + Sync + Send) -> Vec<
 }
 
 /// One of as many parts of 0..n as there are threads: for work that is the same however it is divided.
-pub(crate) fn part_of(n: usize, part: usize) -> std::ops::Range<usize> {
+pub(crate) fn part_of(n: usize, part: usize) -> Range<usize> {
     let n_parts = n_threads();
     n * part / n_parts..n * (part + 1) / n_parts
 }
@@ -493,7 +497,7 @@ pub(crate) fn part_of(n: usize, part: usize) -> std::ops::Range<usize> {
 /// looks at all there is and writes its own part.
 pub(crate) fn map_parts<T: Send, R: Send>(
     items: &mut [T],
-    f: impl Fn(std::ops::Range<usize>, &mut [T]) -> R + Sync + Send,
+    f: impl Fn(Range<usize>, &mut [T]) -> R + Sync + Send,
 ) -> Vec<R> {
     let n = items.len();
     let parts = cut(items, (0..n_threads()).map(|part| part_of(n, part).len()));
@@ -506,6 +510,26 @@ pub(crate) fn part_with(n: usize, x: usize) -> usize {
 }
 
 /// The ranges of at most `size` that make up 0..n.
-pub(crate) fn chunks(n: usize, size: usize) -> (usize, impl Fn(usize) -> std::ops::Range<usize>) {
+pub(crate) fn chunks(n: usize, size: usize) -> (usize, impl Fn(usize) -> Range<usize>) {
     (n.div_ceil(size), move |i| i * size..((i + 1) * size).min(n))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_are_joined_in_their_order() {
+        // Short ones and long ones, and many without anything.
+        let length = |i: usize| if i.is_multiple_of(5) { 0 } else { [1, 40, 700, 3000][i % 4] };
+        for n_lists in [0, 1, 2, 30, 200] {
+            let list = |i: usize| (0..length(i)).map(|k| (i, k)).collect::<Vec<_>>();
+            let lists: Vec<Vec<(usize, usize)>> = (0..n_lists).map(list).collect();
+            for threads in 1..=3 {
+                let team = Team::new(NonZeroUsize::new(threads));
+                let all = team.work(usize::MAX, || joined(lists.clone())).expect("there are threads");
+                assert_eq!(all, lists.concat());
+            }
+        }
+    }
 }

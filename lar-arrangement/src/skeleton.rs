@@ -184,9 +184,8 @@ impl Skeleton {
 /// Gives the new vertices of all parts their numbers.
 fn unify(fragments: &mut [Fragments], vertices: &mut Vertices, soup: &Soup) {
     let n_base = vertices.list.len() as u32;
-    let found: Vec<Vec<Vertex>> = fragments.iter_mut().map(|part| take(&mut part.vertices)).collect();
-    let begins = offsets(found.iter().map(|part| part.len() as u32));
-    let numbers = vertices.unify(&parallel::joined(found), &soup.geometry);
+    let found = fragments.iter_mut().map(|part| take(&mut part.vertices)).collect();
+    let (begins, numbers) = vertices.unify_chunks(found, &soup.geometry);
     let parts = begins.into_iter().zip(fragments.iter_mut()).collect();
     parallel::each(parts, |(begin, part): (u32, &mut Fragments)| {
         for v in part.pieces.iter_mut().flat_map(|piece| &mut piece.ends).filter(|v| **v >= n_base) {

@@ -1,7 +1,6 @@
 //! Stage 2c: every input edge is split once, globally, at all points found on it; both its facets see the same
 //! pieces. Also the lists of what lies inside each facet.
 
-use crate::counting;
 use crate::crossing::{Contacts, Segment};
 use crate::kernel::{Along, Sign, Vertex};
 use crate::marks::Marks;
@@ -66,10 +65,8 @@ impl Cuts {
     pub(crate) fn new(soup: &Soup, mut contacts: Vec<Contacts>, vertices: &mut Vertices) -> Self {
         let geometry = &soup.geometry;
         let n_points = geometry.n_points() as u32;
-        let found: Vec<Vec<Vertex>> = contacts.iter_mut().map(|chunk| take(&mut chunk.vertices)).collect();
-        let begins = counting::offsets(found.iter().map(|chunk| chunk.len() as u32));
-        let ids = vertices.unify(&parallel::joined(found), geometry);
-        // The items of the chunks with their vertices as `id` has them.
+        let found = contacts.iter_mut().map(|chunk| take(&mut chunk.vertices)).collect();
+        let (begins, ids) = vertices.unify_chunks(found, geometry);
         let chunks = || contacts.iter().zip(&begins);
         let id = |begin: u32, v: u32| if v < n_points { v } else { ids[(begin + (v - n_points)) as usize] };
         let inside_edges = || {

@@ -1,6 +1,7 @@
 //! Vertices by definition: different definitions of one point become one vertex, by exact equality. Many are unified at
 //! once, by all threads.
 
+use crate::counting::offsets;
 use crate::grid_points::PointTable;
 use crate::kernel::{Geometry, Vertex};
 use crate::parallel;
@@ -35,9 +36,19 @@ impl Vertices {
         Self { list, grid_points, others }
     }
 
+    /// As `unify`, for the vertices of some chunks: where those of each begin among all, and the numbers.
+    pub(crate) fn unify_chunks(
+        &mut self,
+        found: Vec<Vec<Vertex>>,
+        geometry: &Geometry,
+    ) -> (Vec<u32>, Vec<u32>) {
+        let begins = offsets(found.iter().map(|chunk| chunk.len() as u32));
+        (begins, self.unify(&parallel::joined(found), geometry))
+    }
+
     /// The number of each of some vertices, known or new; new ones are numbered in the order in which they come first.
     /// O(n) expected.
-    pub(crate) fn unify(&mut self, found: &[Vertex], geometry: &Geometry) -> Vec<u32> {
+    fn unify(&mut self, found: &[Vertex], geometry: &Geometry) -> Vec<u32> {
         let known = parallel::map_light(found.len(), |i| self.on_grid(&found[i], geometry).unwrap_or(NONE));
         let unknown = parallel::select(found.len(), |i| known[i as usize] == NONE);
         let sorted = sorted_vertices(found, &unknown);

@@ -62,12 +62,12 @@ impl<'a> Numbering<'a> {
         let mut first_piece = first_pieces(fragments, n_vertices);
         let n_pieces = || fragments.iter().map(|part| part.pieces.len());
         let mut edge_of_first = parallel::map_light(first_piece.len(), |_| NONE);
-        parallel::map_each(parallel::cut(&mut edge_of_first, n_pieces()), |part, own| {
-            steps.note_users(parts, part, &border, &first_piece, own);
-        });
-        let of_parts = parallel::map_each(parallel::cut(&mut edge_of_first, n_pieces()), |part, own| {
-            steps.additions(parts, part, &border, &first_piece, own)
-        });
+        let part_of_groups =
+            |part| PartOfGroups { parts, part, border: &border, steps: &steps, first_piece: &first_piece };
+        let own = parallel::cut(&mut edge_of_first, n_pieces());
+        parallel::map_each(own, |part, own| part_of_groups(part).note_users(own));
+        let own = parallel::cut(&mut edge_of_first, n_pieces());
+        let of_parts = parallel::map_each(own, |part, own| part_of_groups(part).additions(own));
         debug_assert!(
             first_piece.iter().all(|&first| edge_of_first[first as usize] != NONE),
             "a piece is in no loop"
@@ -316,19 +316,35 @@ impl Steps {
         }
         all
     }
+}
 
-    /// Calls `visit` with each use of an edge of the input or of a piece in the steps of a part, in their order: with the step, the
-    /// edge of the input that no facet up to there has, and what it is a use of.
-    fn each_use(
-        &self,
-        parts: &Parts<'_>,
-        part: usize,
-        border: &Border<'_>,
-        mut visit: impl FnMut(u32, u32, Use),
-    ) {
-        let steps = self.of_parts[part].clone();
-        let mut groups = parts.groups_of(part);
-        for (step, number) in self.list[steps.clone()].iter().zip(steps.start as u32..) {
+/// A part of the groups, and what its uses of edges are looked at with.
+struct PartOfGroups<'a> {
+    parts: &'a Parts<'a>,
+    part: usize,
+    border: &'a Border<'a>,
+    steps: &'a Steps,
+    /// For each piece of each part the first one of all with the same ends.
+    first_piece: &'a [u32],
+}
+
+impl PartOfGroups<'_> {
+    fn piece(&self, piece: u32) -> &Piece {
+        &self.parts.fragments[self.part].pieces[piece as usize]
+    }
+
+    /// The first piece with the ends of one of this part, by its place in the part; none when it is another part's.
+    fn first(&self, piece: u32) -> Option<u32> {
+        let begin = self.parts.first_pieces[self.part];
+        self.first_piece[(begin + piece) as usize].checked_sub(begin)
+    }
+
+    /// Calls `visit` with each use of an edge of the input or of a piece in the steps of the part, in their order: with the step,
+    /// the edge of the input that no facet up to there has, and what it is a use of.
+    fn each_use(&self, mut visit: impl FnMut(u32, u32, Use)) {
+        let (steps, border) = (self.steps.of_parts[self.part].clone(), self.border);
+        let mut groups = self.parts.groups_of(self.part);
+        for (step, number) in self.steps.list[steps.clone()].iter().zip(steps.start as u32..) {
             if step.is_group {
                 let group = groups.next().expect("each group is a step");
                 for &h in group.all_half_edges() {
@@ -347,57 +363,38 @@ impl Steps {
         }
     }
 
-    /// Notes the first step that has each edge of the border, and in `edge_of_first`, marked with `WHOLE`, which of a part's pieces
-    /// that are the first ones with their ends are edges of the input.
-    fn note_users(
-        &self,
-        parts: &Parts<'_>,
-        part: usize,
-        border: &Border<'_>,
-        first_piece: &[u32],
-        edge_of_first: &mut [u32],
-    ) {
-        let (pieces, begin) = (&parts.fragments[part].pieces, parts.first_pieces[part]);
-        self.each_use(parts, part, border, |step, _, used| {
+    /// Notes the first step that has each edge of the border, and in `edge_of_first`, marked with `WHOLE`, which of the part's
+    /// pieces that are the first ones with their ends are edges of the input.
+    fn note_users(&self, edge_of_first: &mut [u32]) {
+        self.each_use(|step, _, used| {
             let edge = match used {
                 Use::Whole(edge) => edge,
                 // One that is another's has a later step.
-                Use::Piece(piece) if first_piece[(begin + piece) as usize] == begin + piece => {
-                    let Some(edge) = border.edge_of_piece(&pieces[piece as usize]) else { return };
+                Use::Piece(piece) if self.first(piece) == Some(piece) => {
+                    let Some(edge) = self.border.edge_of_piece(self.piece(piece)) else { return };
                     edge_of_first[piece as usize] = WHOLE | edge;
                     edge
                 }
                 Use::Piece(_) => return,
             };
-            border.state[edge as usize].fetch_min(step, Relaxed);
+            self.border.state[edge as usize].fetch_min(step, Relaxed);
         });
     }
 
-    /// What a part adds. Its pieces that are the first ones with their ends, and no edges of the input, get their places among
+    /// What the part adds. Its pieces that are the first ones with their ends, and no edges of the input, get their places among
     /// these in `edge_of_first`.
-    fn additions(
-        &self,
-        parts: &Parts<'_>,
-        part: usize,
-        border: &Border<'_>,
-        first_piece: &[u32],
-        edge_of_first: &mut [u32],
-    ) -> Additions {
+    fn additions(&self, edge_of_first: &mut [u32]) -> Additions {
         let mut out = Additions::default();
-        let (pieces, begin) = (&parts.fragments[part].pieces, parts.first_pieces[part]);
-        self.each_use(parts, part, border, |step, at, used| {
+        self.each_use(|step, at, used| {
             let place = out.added.len() as u32;
             let edge = match used {
                 Use::Whole(edge) => edge,
                 Use::Piece(piece) => {
-                    // One that is first in another part is that part's.
-                    let Some(first) = first_piece[(begin + piece) as usize].checked_sub(begin) else {
-                        return;
-                    };
+                    let Some(first) = self.first(piece) else { return };
                     let edge_of_first = &mut edge_of_first[first as usize];
                     if *edge_of_first == NONE {
                         *edge_of_first = place;
-                        let piece = &pieces[piece as usize];
+                        let piece = self.piece(piece);
                         let (ends, way) = (ends_of(piece), piece.direction);
                         out.added.push(Added { at, ends });
                         out.pieces.push(place);
@@ -409,12 +406,12 @@ impl Steps {
                     *edge_of_first ^ WHOLE
                 }
             };
-            let state = &border.state[edge as usize];
+            let state = &self.border.state[edge as usize];
             // Nobody else changes the state of an edge that this step has first.
             if state.load(Relaxed) == step {
                 state.store(NONE, Relaxed);
                 out.whole.push((edge, place));
-                out.added.push(Added { at, ends: border.soup.edges[edge as usize] });
+                out.added.push(Added { at, ends: self.border.soup.edges[edge as usize] });
             }
         });
         out

@@ -87,7 +87,7 @@ def bench(name):
                 if m.get("executable") and m["target"]["name"] == name)
 
 
-def by_turns(engines, file, too_large, repetitions=REPETITIONS, limit=LIMIT):
+def by_turns(engines, file, too_large, repetitions=REPETITIONS):
     """Runs all engines on a file or directory by turns: medians of CPU time, wall time and memory for each, and what
     else it prints of its first run.
 
@@ -101,7 +101,7 @@ def by_turns(engines, file, too_large, repetitions=REPETITIONS, limit=LIMIT):
             if turn == 0 and name in too_large and size(runs[ours]) > too_large[name]:
                 runs[name].append("–")
             elif turn == 0 or is_short(runs[name][0], 10 * LONG if name == ours else LONG):
-                runs[name].append(run([*command, file], limit))
+                runs[name].append(run([*command, file], LIMIT))
     for name, results in runs.items():
         if results[0] == "time":
             too_large[name] = min(size(runs[ours]), too_large.get(name, math.inf))
