@@ -324,7 +324,7 @@ impl Regions {
 
     /// The points inside the mesh whose facets are in charts, but not all in one, ascending.
     fn between(&self, soup: &Soup, of_region: &[Shared]) -> Vec<u32> {
-        let mut around = vec![Shared::default(); soup.geometry.n_points()];
+        let mut around: Vec<Shared> = parallel::zeros(soup.geometry.n_points());
         for &edge in &self.borders {
             if let [Some(a), Some(b)] = self.beside(soup, edge) {
                 let shared = of_region[a].with(of_region[b]);

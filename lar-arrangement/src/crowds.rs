@@ -40,7 +40,7 @@ pub(crate) fn facets(soup: &Soup, charts: &Charts, reach: f64, all: &Aabb) -> Op
         return None;
     }
     let voxels = Voxels::new(soup, all, reach);
-    let mut marks = vec![Shared::default(); voxels.size.iter().product()];
+    let mut marks: Vec<Shared> = parallel::zeros(voxels.size.iter().product());
     let looked_at: Vec<u32> =
         if n < MANY { (0..n as u32).collect() } else { voxels.in_crowds(soup, charts, &mut marks)? };
     let blocks = parallel::map_light(looked_at.len(), |i| voxels.block(soup, looked_at[i]));

@@ -178,14 +178,10 @@ impl Fragmenter<'_> {
             if self.cuts.inner.of(edge / 2).is_empty() {
                 out.half_edges.push(WHOLE | edge);
             } else {
-                self.walk(
-                    edge,
-                    |way| way,
-                    |piece| {
-                        out.half_edges.push(2 * out.pieces.len() as u32);
-                        out.pieces.push(piece);
-                    },
-                );
+                for piece in self.pieces(edge, way_of(edge, self.soup)) {
+                    out.half_edges.push(2 * out.pieces.len() as u32);
+                    out.pieces.push(piece);
+                }
             }
             if first == Some(head) {
                 out.close_loop();
@@ -195,22 +191,23 @@ impl Fragmenter<'_> {
         out.close_face([FacetParent { facet, same_way: true }]);
     }
 
-    /// The pieces of a directed edge in its direction, which is given as its way tells.
-    fn walk<D: Copy>(&self, edge: u32, told: impl FnOnce(Way) -> D, mut visit: impl FnMut(Piece<D>)) {
-        let id = edge / 2;
-        let ends = self.soup.edges[id as usize];
-        let direction = told(Way { along: Along::Edge(ends), reversed: !edge.is_multiple_of(2) });
+    /// The pieces of a directed edge one after the other, with a direction.
+    fn pieces<D: Copy>(&self, edge: u32, direction: D) -> impl Iterator<Item = Piece<D>> {
+        let soft = self.soup.is_soft(edge / 2);
         let [tail, head] = self.soup.directed(edge);
-        let inner = self.cuts.inner.of(id);
+        let inner = self.cuts.inner.of(edge / 2);
         let n = inner.len();
-        let at = |i: usize| match i {
+        let at = move |i: usize| match i {
             0 => tail,
             i if i == n + 1 => head,
             i if edge.is_multiple_of(2) => inner[i - 1],
             i => inner[n - i],
         };
-        for i in 0..=n {
-            visit(Piece { ends: [at(i), at(i + 1)], direction, soft: self.soup.is_soft(id) });
-        }
+        (0..=n).map(move |i| Piece { ends: [at(i), at(i + 1)], direction, soft })
     }
+}
+
+/// Where a directed edge of the input leads.
+fn way_of(edge: u32, soup: &Soup) -> Way {
+    Way { along: Along::Edge(soup.edges[(edge / 2) as usize]), reversed: !edge.is_multiple_of(2) }
 }

@@ -1,5 +1,6 @@
 //! Stage 1d: half-edges with the same ends are one edge, found by a counting sort over the smaller ends.
 
+use crate::notes::{Notes, Parts};
 use crate::parallel;
 use lar_core::Cells;
 use std::ops::Range;
@@ -89,55 +90,63 @@ fn firsts_by_sorting(half_edges: HalfEdges<'_>) -> Vec<u32> {
     first
 }
 
-/// O(n log d) for at most d edges at a vertex.
+/// O(n log d) for at most d edges at a vertex, when each thread mostly finds early points at early half-edges.
 fn shared_firsts(n_points: usize, half_edges: HalfEdges<'_>) -> Vec<AtomicU32> {
     let first = parallel::atomic_zeros(half_edges.len());
-    // Every part reads all half-edges and sorts those of its points: as many parts as there are threads.
-    parallel::map(parallel::n_threads(), |part| {
-        let points = parallel::part_of(n_points, part);
-        join_edges_at(points.start as u32, points.end as u32, half_edges, &first);
+    let points = Parts::new(n_points);
+    let lengths: Vec<usize> = points.lengths().collect();
+    let (counts, notes) = Notes::of_all(&points, lengths, |part, n, pad| {
+        let mut counts = vec![0u32; n + 2];
+        let (of_points, place) = (&mut counts[2..], points.places(part));
+        half_edges.for_each(half_edges.part(part), |h, [p, q]| match of_points.get_mut(place(p.min(q))) {
+            Some(n) => *n += 1,
+            None => pad.note(p.min(q), h),
+        });
+        counts
+    });
+    parallel::map_each(counts, |part, mut offsets| {
+        let ends = |h: u32| half_edges.ends(h as usize);
+        let place = points.places(part);
+        for [p, q] in notes.before(part).chain(notes.behind(part)).map(|&h| ends(h)) {
+            offsets[place(p.min(q)) + 2] += 1;
+        }
+        for i in 2..offsets.len() {
+            offsets[i] += offsets[i - 1];
+        }
+        // The second number of point i is where its next entry goes; in the end, where those of i + 1 begin. An entry is the larger
+        // end and the half-edge.
+        let mut entries = vec![(0u32, 0u32); offsets.last().map_or(0, |&n| n as usize)];
+        let n = points.range(part).len();
+        let begins = &mut offsets[1..=n];
+        let mut push = |h: u32, [p, q]: [u32; 2]| {
+            if let Some(at) = begins.get_mut(place(p.min(q))) {
+                entries[*at as usize] = (p.max(q), h);
+                *at += 1;
+            }
+        };
+        notes.before(part).for_each(|&h| push(h, ends(h)));
+        half_edges.for_each(half_edges.part(part), &mut push);
+        notes.behind(part).for_each(|&h| push(h, ends(h)));
+        offsets.windows(2).for_each(|range| {
+            join_edges_at_point(&mut entries[range[0] as usize..range[1] as usize], &first);
+        });
     });
     first
 }
 
-/// The edges whose smaller end is one of from..to.
-fn join_edges_at(from: u32, to: u32, half_edges: HalfEdges<'_>, first: &[AtomicU32]) {
-    let all = 0..half_edges.len();
-    let mut offsets = vec![0u32; (to - from) as usize + 2];
-    half_edges.for_each(all.clone(), |_, [p, q]| {
-        let low = p.min(q);
-        if from <= low && low < to {
-            offsets[(low - from) as usize + 2] += 1;
+/// Notes the first half-edge of each edge whose smaller end is one point: its entries are the larger ends and the half-edges,
+/// these ascending.
+fn join_edges_at_point(around: &mut [(u32, u32)], first: &[AtomicU32]) {
+    if around.len() <= FEW {
+        for &(upper, h) in around.iter() {
+            let same = around.iter().find(|other| other.0 == upper).expect("it is one of them");
+            first[h as usize].store(same.1, Relaxed);
         }
-    });
-    for i in 2..offsets.len() {
-        offsets[i] += offsets[i - 1];
+        return;
     }
-    // offsets[i + 1] is where the next entry of point i goes; in the end, where those of i + 1 begin. An entry is the larger
-    // end and the half-edge.
-    let mut entries = vec![(0u32, 0u32); offsets.last().map_or(0, |&n| n as usize)];
-    half_edges.for_each(all, |h, [p, q]| {
-        let low = p.min(q);
-        if from <= low && low < to {
-            let at = &mut offsets[(low - from) as usize + 1];
-            entries[*at as usize] = (p.max(q), h);
-            *at += 1;
-        }
-    });
-    for range in offsets.windows(2) {
-        // Ascending by half-edges, so the first of an edge comes first.
-        let around = &mut entries[range[0] as usize..range[1] as usize];
-        if around.len() <= FEW {
-            for &(upper, h) in around.iter() {
-                let same = around.iter().find(|other| other.0 == upper).expect("it is one of them");
-                first[h as usize].store(same.1, Relaxed);
-            }
-            continue;
-        }
-        around.sort_unstable();
-        for edge in around.chunk_by(|a, b| a.0 == b.0) {
-            edge.iter().for_each(|&(_, h)| first[h as usize].store(edge[0].1, Relaxed));
-        }
+    around.sort_unstable();
+    for edge in around.chunk_by(|a, b| a.0 == b.0) {
+        edge.iter().for_each(|&(_, h)| first[h as usize].store(edge[0].1, Relaxed));
     }
 }
 
@@ -192,19 +201,33 @@ pub(crate) const NONE: u32 = u32::MAX;
 /// More than one facet.
 pub(crate) const MANY: u32 = u32::MAX - 1;
 
-/// For each edge the facet that runs along it and the one that runs against it, or `NONE` or `MANY`.
-///
-/// Every thread looks at all facets for its part of the edges.
+/// For each edge the facet that runs along it and the one that runs against it, or `NONE` or `MANY`. Early facets should have
+/// early edges.
 pub(crate) fn facets_of_edges(n_edges: usize, facet_edges: &Cells) -> Vec<[u32; 2]> {
     let mut out = parallel::map_light(n_edges, |_| [NONE; 2]);
-    parallel::map_parts(&mut out, |range, out| {
-        for (codes, facet) in facet_edges.iter().zip(0..) {
-            for &code in codes {
-                let place = ((code / 2) as usize).checked_sub(range.start);
-                let Some(users) = place.and_then(|place| out.get_mut(place)) else { continue };
-                let user = &mut users[(code % 2) as usize];
-                *user = if *user == NONE { facet } else { MANY };
+    let (edges, facets) = (Parts::new(n_edges), Parts::new(facet_edges.len()));
+    let add = |users: &mut [u32; 2], code: u32, facet: u32| {
+        let user = &mut users[(code % 2) as usize];
+        *user = if *user == NONE { facet } else { MANY };
+    };
+    let own = parallel::cut(&mut out, edges.lengths());
+    let (own, notes) = Notes::of_all(&edges, own, |part, own, pad| {
+        let (facets, place) = (facets.range(part), edges.places(part));
+        let begins = &facet_edges.offsets()[facets.start..=facets.end];
+        for (range, facet) in begins.windows(2).zip(facets.start as u32..) {
+            for &code in &facet_edges.indices()[range[0] as usize..range[1] as usize] {
+                match own.get_mut(place(code / 2)) {
+                    Some(users) => add(users, code, facet),
+                    None => pad.note(code / 2, (code, facet)),
+                }
             }
+        }
+        own
+    });
+    parallel::map_each(own, |part, own| {
+        let place = edges.places(part);
+        for &(code, facet) in notes.before(part).chain(notes.behind(part)) {
+            add(&mut own[place(code / 2)], code, facet);
         }
     });
     out
@@ -213,6 +236,7 @@ pub(crate) fn facets_of_edges(n_edges: usize, facet_edges: &Cells) -> Vec<[u32; 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     #[test]
     fn edges_are_numbered_by_their_first_half_edges() {
@@ -235,6 +259,46 @@ mod tests {
         for n_points in [4, 400] {
             let half_edges = HalfEdges::Listed { tails: &tails, heads: &heads };
             assert_eq!(first_of_edge(n_points, half_edges), [0, 1, 2, 1, 4, 5, 2, 1, 0]);
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+        #[test]
+        fn edges_and_their_facets_are_found_as_one_by_one(
+            // Few points have many edges, and triangles that come early have late points.
+            n_points in 3u32..50,
+            corners in prop::collection::vec(prop::array::uniform3(0u32..1 << 16), 0..150),
+        ) {
+            let distinct = |t: &[u32; 3]| t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
+            let triangles: Vec<[u32; 3]> = corners.iter().map(|t| t.map(|p| p % n_points)).filter(distinct).collect();
+            let (mut known, mut users) = (Vec::new(), Vec::new());
+            let mut code = |[p, q]: [u32; 2], facet: u32| {
+                let ends = [p.min(q), p.max(q)];
+                let edge = known.iter().position(|known| *known == ends).unwrap_or_else(|| {
+                    known.push(ends);
+                    users.push([NONE; 2]);
+                    known.len() - 1
+                });
+                let user = &mut users[edge][usize::from(p > q)];
+                *user = if *user == NONE { facet } else { MANY };
+                2 * edge as u32 + u32::from(p > q)
+            };
+            let expected: Vec<u32> = (0..).zip(&triangles)
+                .flat_map(|(facet, &[a, b, c])| [[a, b], [b, c], [c, a]].map(|ends| code(ends, facet)))
+                .collect();
+            for threads in 1..=3 {
+                let found = || {
+                    let (edges, codes) = edges(n_points as usize, HalfEdges::OfTriangles(&triangles));
+                    let users = facets_of_edges(edges.len(), &Cells::uniform(3, codes.clone()));
+                    (edges, codes, users)
+                };
+                let team = parallel::Team::new(std::num::NonZeroUsize::new(threads));
+                let (edges, codes, facets) = team.work(usize::MAX, found).expect("there are threads");
+                prop_assert_eq!(&edges, &known);
+                prop_assert_eq!(&codes, &expected);
+                prop_assert_eq!(&facets, &users);
+            }
         }
     }
 }

@@ -32,6 +32,7 @@ mod measure;
 mod meeting;
 mod merge;
 mod nest;
+mod notes;
 mod operators;
 mod parallel;
 mod pipeline;

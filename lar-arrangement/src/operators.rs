@@ -83,9 +83,10 @@ impl Columns {
 
     fn append(&mut self, other: &Self) {
         let base = self.edges.len() as u32;
-        self.offsets.extend(other.offsets[1..].iter().map(|offset| base + offset));
-        self.edges.extend_from_slice(&other.edges);
-        self.signs.extend_from_slice(&other.signs);
+        let (offsets, edges, signs) = (&other.offsets[1..], &other.edges, &other.signs);
+        parallel::extend_light(&mut self.offsets, offsets.len(), |i| base + offsets[i]);
+        parallel::extend_light(&mut self.edges, edges.len(), |i| edges[i]);
+        parallel::extend_light(&mut self.signs, signs.len(), |i| signs[i]);
     }
 }
 

@@ -504,11 +504,6 @@ pub(crate) fn map_parts<T: Send, R: Send>(
     map_each(parts, |part, items| f(part_of(n, part), items))
 }
 
-/// The part of 0..n that x is in.
-pub(crate) fn part_with(n: usize, x: usize) -> usize {
-    ((x + 1) * n_threads()).div_ceil(n) - 1
-}
-
 /// The ranges of at most `size` that make up 0..n.
 pub(crate) fn chunks(n: usize, size: usize) -> (usize, impl Fn(usize) -> Range<usize>) {
     (n.div_ceil(size), move |i| i * size..((i + 1) * size).min(n))

@@ -13,7 +13,7 @@ pub(crate) struct UnionFind {
 
 impl UnionFind {
     pub(crate) fn new(n: usize) -> Self {
-        Self { parent: (0..n as u32).collect() }
+        Self { parent: parallel::map_light(n, |x| x as u32) }
     }
 
     /// The sets that n lists of pairs join. Every thread takes its part of the lists and joins the pairs within its part
@@ -75,7 +75,7 @@ impl UnionFind {
 
     /// The elements that are not the smallest of their sets.
     pub(crate) fn joined(&self) -> Vec<u32> {
-        (0..).zip(&self.parent).filter(|(x, parent)| x != *parent).map(|(x, _)| x).collect()
+        parallel::select(self.parent.len(), |x| self.parent[x as usize] != x)
     }
 
     /// Number of each element's set; sets are numbered by their smallest members. Also the number of sets.

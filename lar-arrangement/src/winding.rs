@@ -5,6 +5,7 @@
 //! all faces if and only if its boundary is closed; otherwise its parity may still be (closed but not oriented
 //! consistently); otherwise the surface is open and bounds nothing.
 
+use crate::counting::sorted_by_place;
 use crate::parallel;
 use std::ops::Range;
 
@@ -92,27 +93,11 @@ impl Rows {
         let parts = parallel::map(n_chunks, |chunk| {
             let mut out = Vec::new();
             for wall in range(chunk) {
-                let [front, back] = walls.cells[wall].map(|cell| self.of(cell as usize));
-                let mut sides = [front, back];
-                let mut compare = |sides: [&[(u32, i32)]; 2], solid: u32, jump: i32| {
-                    let [before, after] = sides.map(|side| number_of(side, solid));
-                    if reduced(after - before - jump) != 0 {
-                        out.push(solid);
-                    }
-                };
-                for jump in walls.of(wall as u32) {
-                    let heads = sides.map(|side| &side[..side.partition_point(|e| e.0 < jump.solid)]);
-                    let rest = [0, 1].map(|i| &sides[i][heads[i].len()..]);
-                    if heads[0] != heads[1] {
-                        heads.concat().iter().for_each(|e| compare(heads, e.0, 0));
-                    }
-                    compare(rest, jump.solid, value(jump));
-                    sides = rest
-                        .map(|side| &side[usize::from(side.first().is_some_and(|e| e.0 == jump.solid))..]);
-                }
-                if sides[0] != sides[1] {
-                    sides.concat().iter().for_each(|e| compare(sides, e.0, 0));
-                }
+                let sides = walls.cells[wall].map(|cell| self.of(cell as usize));
+                let jumps = walls.of(wall as u32).iter().map(|jump| (jump.solid, value(jump)));
+                each_excess(sides, jumps, |solid, excess| {
+                    out.extend((reduced(excess) != 0).then_some(solid));
+                });
             }
             // Where a surface is open many walls say so.
             out.sort_unstable();
@@ -120,6 +105,40 @@ impl Rows {
             out
         });
         parts.concat()
+    }
+}
+
+/// Calls `visit` with all solids that have numbers in front of a wall or behind it that differ, or jump there, and by how much
+/// more than its jump the number of each rises. Rows and jumps are sorted by solid.
+fn each_excess(
+    sides: [&[(u32, i32)]; 2],
+    jumps: impl Iterator<Item = (u32, i32)>,
+    mut visit: impl FnMut(u32, i32),
+) {
+    let mut rest = sides;
+    for (solid, jump) in jumps {
+        let split = rest.map(|side| side.split_at(side.partition_point(|entry| entry.0 < solid)));
+        each_difference(split.map(|(before, _)| before), &mut visit);
+        rest = split.map(|(_, after)| after);
+        let [front, back] = rest.each_mut().map(|side| match side.split_first() {
+            Some((&(first, number), after)) if first == solid => {
+                *side = after;
+                number
+            }
+            _ => 0,
+        });
+        visit(solid, back - front - jump);
+    }
+    each_difference(rest, visit);
+}
+
+/// As `each_excess`, where nothing jumps. Mostly both sides are the same.
+fn each_difference(sides: [&[(u32, i32)]; 2], mut visit: impl FnMut(u32, i32)) {
+    if sides[0] != sides[1] {
+        for &(solid, _) in sides.into_iter().flatten() {
+            let [front, back] = sides.map(|side| number_of(side, solid));
+            visit(solid, back - front);
+        }
     }
 }
 
@@ -273,21 +292,10 @@ impl Windings {
 /// For each cell but the exterior, in the order of a breadth-first walk: the cell, the one it is entered from, the
 /// wall crossed and the sign of the crossing (+1 from front to back).
 fn spanning_tree(n_cells: usize, cells_of_wall: &[[u32; 2]]) -> Vec<(u32, u32, u32, i32)> {
-    let mut offsets = vec![0u32; n_cells + 1];
-    for &cell in cells_of_wall.as_flattened() {
-        offsets[cell as usize + 1] += 1;
-    }
-    for c in 0..n_cells {
-        offsets[c + 1] += offsets[c];
-    }
-    let mut fill = offsets.clone();
-    let mut walls = vec![0u32; 2 * cells_of_wall.len()];
-    for (&cells, wall) in cells_of_wall.iter().zip(0..) {
-        for cell in cells {
-            walls[fill[cell as usize] as usize] = wall;
-            fill[cell as usize] += 1;
-        }
-    }
+    // Sides of walls: 2 · wall in front, + 1 behind.
+    let cell_at = |side: u32| cells_of_wall.as_flattened()[side as usize];
+    let sides: Vec<u32> = (0..2 * cells_of_wall.len() as u32).collect();
+    let (offsets, sides) = sorted_by_place(n_cells, &sides, |&side| cell_at(side) as usize);
     let mut seen = vec![false; n_cells];
     seen[0] = true;
     let mut order = vec![0u32];
@@ -296,14 +304,41 @@ fn spanning_tree(n_cells: usize, cells_of_wall: &[[u32; 2]]) -> Vec<(u32, u32, u
     while at < order.len() {
         let cell = order[at];
         at += 1;
-        for &wall in &walls[offsets[cell as usize] as usize..offsets[cell as usize + 1] as usize] {
-            let [front, back] = cells_of_wall[wall as usize];
-            let (next, sign) = if front == cell { (back, 1) } else { (front, -1) };
+        for &side in &sides[offsets[cell as usize] as usize..offsets[cell as usize + 1] as usize] {
+            let (next, sign) = (cell_at(side ^ 1), if side.is_multiple_of(2) { 1 } else { -1 });
             if !std::mem::replace(&mut seen[next as usize], true) {
                 order.push(next);
-                tree.push((next, cell, wall, sign));
+                tree.push((next, cell, side / 2, sign));
             }
         }
     }
     tree
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn what_rises_by_more_than_the_jump_is_found(
+            numbers in prop::array::uniform3(prop::collection::vec(-1i32..2, 6)),
+        ) {
+            // A row has no zeros; a jump may be one.
+            let list = |of: &[i32]| (0..).zip(of.iter().copied()).collect::<Vec<(u32, i32)>>();
+            let [front, back, mut jumps] = numbers.each_ref().map(|of| list(of));
+            let rows = [&front, &back].map(|row| row.iter().copied().filter(|e| e.1 != 0).collect::<Vec<_>>());
+            jumps.retain(|jump| jump.0 % 3 != 1 || jump.1 == 1);
+            let jump_of = |solid| jumps.iter().find(|jump| jump.0 == solid).map_or(0, |jump| jump.1);
+            let rise = |solid: u32| back[solid as usize].1 - front[solid as usize].1 - jump_of(solid);
+            let mut found = Vec::new();
+            each_excess(rows.each_ref().map(Vec::as_slice), jumps.iter().copied(), |solid, excess| {
+                assert_eq!(excess, rise(solid));
+                found.push(solid);
+            });
+            let missed = (0..6).find(|&solid| rise(solid) != 0 && !found.contains(&solid));
+            prop_assert_eq!(missed, None);
+        }
+    }
 }

@@ -18,6 +18,7 @@
 //! ```
 
 use crate::kernel::{Direction, Geometry, Sign};
+use crate::notes::{Notes, Parts};
 use crate::parallel;
 use crate::skeleton::Skeleton;
 use crate::union_find::UnionFind;
@@ -54,28 +55,24 @@ pub(crate) fn rings(skeleton: &Skeleton, geometry: &Geometry) -> Cells {
 }
 
 /// For every edge the faces that have it in a loop, ascending: 2 · face, + 1 where the loop runs against the edge. The loops of
-/// face f are `face_loops[f]..face_loops[f + 1]`. O(size of the loops). Every thread takes its part of the faces and notes
-/// those at edges outside its part of the edges for others: early faces should have early edges.
+/// face f are `face_loops[f]..face_loops[f + 1]`. O(size of the loops). Early faces should have early edges.
 pub(crate) fn faces_at_edges(n_edges: usize, loops: &Cells, face_loops: &[u32]) -> (Vec<u32>, Vec<u32>) {
-    let n_parts = parallel::n_threads();
-    let edges = |part: usize| parallel::part_of(n_edges, part);
+    let (edges, own_faces) = (Parts::new(n_edges), Parts::new(face_loops.len() - 1));
     let faces = Faces { loops, face_loops };
-    let own_faces = |part: usize| parallel::part_of(face_loops.len() - 1, part);
     // Behind the 0, the place of edge i is where its next entry goes within its part; in the end, where they end.
     let mut offsets = parallel::zeros(n_edges + 1);
-    let parts = parallel::cut(&mut offsets[1..], (0..n_parts).map(|part| edges(part).len()));
-    let counted = parallel::map_each(parts, |part, ends: &mut [u32]| {
-        let (edges, mut others) = (edges(part), vec![Vec::new(); n_parts]);
-        faces.each_half_edge(own_faces(part), |h, face| match place_in(&edges, h) {
-            Some(i) => ends[i] += 1,
-            None => others[parallel::part_with(n_edges, (h / 2) as usize)].push((h, face)),
+    let parts = parallel::cut(&mut offsets[1..], edges.lengths());
+    let (parts, notes) = Notes::of_all(&edges, parts, |part, ends: &mut [u32], pad| {
+        let place = edges.places(part);
+        faces.each_half_edge(own_faces.range(part), |h, face| match ends.get_mut(place(h / 2)) {
+            Some(n) => *n += 1,
+            None => pad.note(h / 2, (h, face)),
         });
-        (ends, others)
+        ends
     });
-    let (parts, others): (Vec<_>, Vec<_>) = counted.into_iter().unzip();
     let counted = parallel::map_each(parts, |part, ends| {
-        let of_others = others.iter().flat_map(|others| &others[part]);
-        of_others.filter_map(|&(h, _)| place_in(&edges(part), h)).for_each(|i| ends[i] += 1);
+        let place = edges.places(part);
+        notes.before(part).chain(notes.behind(part)).for_each(|&(h, _)| ends[place(h / 2)] += 1);
         let n = ends.iter_mut().fold(0, |n, end| n + std::mem::replace(end, n));
         (ends, n as usize)
     });
@@ -89,27 +86,21 @@ pub(crate) fn faces_at_edges(n_edges: usize, loops: &Cells, face_loops: &[u32]) 
         },
     );
     parallel::map_each(parts.collect(), |part, (begin, ends, entries)| {
-        let edges = edges(part);
+        let place = edges.places(part);
         let mut push = |h: u32, face: u32| {
-            if let Some(i) = place_in(&edges, h) {
-                entries[ends[i] as usize] = 2 * face + h % 2;
-                ends[i] += 1;
+            if let Some(end) = ends.get_mut(place(h / 2)) {
+                entries[*end as usize] = 2 * face + h % 2;
+                *end += 1;
             }
         };
-        let of = |parts: Range<usize>| others[parts].iter().flat_map(|others| &others[part]);
-        of(0..part).for_each(|&(h, face)| push(h, face));
-        faces.each_half_edge(own_faces(part), &mut push);
-        of(part..n_parts).for_each(|&(h, face)| push(h, face));
+        notes.before(part).for_each(|&(h, face)| push(h, face));
+        faces.each_half_edge(own_faces.range(part), &mut push);
+        notes.behind(part).for_each(|&(h, face)| push(h, face));
         if begin > 0 {
             ends.iter_mut().for_each(|end| *end += begin);
         }
     });
     (offsets, entries)
-}
-
-/// The place of a half-edge's edge among some, if it is one of them.
-fn place_in(edges: &Range<usize>, h: u32) -> Option<usize> {
-    ((h / 2) as usize).checked_sub(edges.start).filter(|&place| place < edges.len())
 }
 
 /// Faces by their loops.

@@ -1,6 +1,6 @@
 //! One group of overlapping facets cut into faces: a planar subdivision of its own.
 
-use super::{Extent, FacetParent, Fragmenter, Fragments};
+use super::{Extent, FacetParent, Fragmenter, Fragments, way_of};
 use crate::boxes::{Aabb, BoxTree};
 use crate::crossing::segment_direction;
 use crate::interner::Interner;
@@ -172,21 +172,19 @@ impl<'a> Local<'a> {
     /// The boundary pieces of all members, each once, with who uses it.
     fn push_boundary(&mut self, all: &mut Vec<Used>) {
         all.clear();
+        let from = self.from;
         for (&facet, member) in self.group.iter().zip(0..) {
-            for &edge in &self.from.soup.facet_edges[facet as usize] {
-                self.from.walk(
-                    edge,
-                    |way| self.geometry().towards(way),
-                    |piece| {
-                        let [a, b] = piece.ends.map(|v| self.local(v));
-                        let (ends, direction, sign) = if a < b {
-                            ([a, b], piece.direction, 1)
-                        } else {
-                            ([b, a], piece.direction.opposite(), -1)
-                        };
-                        all.push((Piece { ends, direction, ..piece }, Use { member, sign }, edge / 2));
-                    },
-                );
+            for &edge in &from.soup.facet_edges[facet as usize] {
+                let direction = self.geometry().towards(way_of(edge, from.soup));
+                for piece in from.pieces(edge, direction) {
+                    let [a, b] = piece.ends.map(|v| self.local(v));
+                    let (ends, direction, sign) = if a < b {
+                        ([a, b], piece.direction, 1)
+                    } else {
+                        ([b, a], piece.direction.opposite(), -1)
+                    };
+                    all.push((Piece { ends, direction, ..piece }, Use { member, sign }, edge / 2));
+                }
             }
         }
         if self.from.extent == Extent::NearResult && self.group.len() > 1 {
