@@ -11,6 +11,7 @@ use crate::soup::{Parent, Soup};
 use crate::stats::Stats;
 use crate::winding::{Walls, Windings};
 use lar_core::{ChainComplex, Points, Surface};
+use std::mem::take;
 
 /// The shells of the faces, and the cells that they bound.
 pub(crate) struct Shells<'a> {
@@ -54,26 +55,30 @@ pub(crate) fn assemble(
     });
     let windings = Windings::new(shells.n_cells as usize, surfaces.len(), &walls);
     course.begin("complex", &mut stats)?;
-    let facet_of_face = parallel::map_light(n_faces, |face| skeleton.facet(dissolved.old_face(face as u32)));
-    let plane_of_face = parallel::map_light(n_faces, |face| soup.plane_class(facet_of_face[face]));
     let vertices = match &dissolved.origins {
         Some(origins) => origins.vertices.iter().map(|&v| skeleton.vertices[v as usize]).collect(),
-        None => skeleton.vertices,
+        None => take(&mut skeleton.vertices),
     };
-    let edges = std::mem::take(&mut dissolved.edges);
+    let edges = take(&mut dissolved.edges);
     let n_edges = edges.len();
-    let points = positions(&soup, &vertices);
-    let of_edges = || boundary_1(vertices.len(), edges);
     let of_faces = || boundary_2(n_edges, &dissolved.loops, &dissolved.face_loops);
     let of_cells = || boundary_3(&cells_of_face, shells.n_cells as usize);
-    let boundaries = match operators {
-        Operators::Edges => vec![of_edges()],
-        // The second takes as long as the others.
+    let of_others = || {
+        let facet_of_face =
+            parallel::map_light(n_faces, |face| skeleton.facet(dissolved.old_face(face as u32)));
+        let plane_of_face = parallel::map_light(n_faces, |face| soup.plane_class(facet_of_face[face]));
+        let boundary_1 = boundary_1(vertices.len(), edges);
+        (facet_of_face, plane_of_face, boundary_1, positions(&soup, &vertices))
+    };
+    // One thread looks through ∂2 at last, and makes ∂3; the others have the rest to do meanwhile.
+    let (more, (facet_of_face, plane_of_face, boundary_1, points)) = match operators {
+        Operators::Edges => (Vec::new(), of_others()),
         Operators::All => {
-            let (two, (one, three)) = parallel::join(of_faces, || (of_edges(), of_cells()));
-            vec![one, two, three]
+            let (two, (three, others)) = parallel::join(of_faces, || (of_cells(), of_others()));
+            (vec![two, three], others)
         }
     };
+    let boundaries = std::iter::once(boundary_1).chain(more).collect();
     let complex = ChainComplex::new(points, boundaries);
     stats.grid_step = soup.grid.step();
     stats.facets = soup.n_facets() as u64;

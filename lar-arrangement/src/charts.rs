@@ -129,7 +129,7 @@ impl Charts {
     ) -> Result<Option<Self>, Cancelled> {
         let looks = looks(soup, share, margin);
         let regions = Regions::new(soup, &looks);
-        let (mut of_region, charts) = regions.candidates(soup);
+        let (mut of_region, charts) = regions.candidates();
         let boundaries = regions.boundaries(soup, &of_region, charts.len());
         let (quiet, is_given_up) = (course.quiet(), AtomicBool::new(false));
         let holds = course.map(charts.len(), |i| {
@@ -237,8 +237,21 @@ struct Regions {
     looks: Vec<u8>,
     /// The number of facets of each.
     sizes: Vec<usize>,
-    /// The edges on both sides of which there is not the same one.
-    borders: Vec<u32>,
+    borders: Vec<Border>,
+}
+
+/// An edge on both sides of which there is not the same region.
+struct Border {
+    edge: u32,
+    /// The region that runs along it and the one that runs against it, or `MANY` or more for none.
+    sides: [u32; 2],
+}
+
+impl Border {
+    /// The regions on both sides.
+    fn beside(&self) -> [Option<usize>; 2] {
+        self.sides.map(|region| (region < MANY).then_some(region as usize))
+    }
 }
 
 impl Regions {
@@ -257,25 +270,24 @@ impl Regions {
             begin += alike.len();
         }
         let at = |f: u32| if f < MANY { of_facet[f as usize] } else { f };
-        let borders = parallel::select(users.len(), |edge| {
+        let edges = parallel::select(users.len(), |edge| {
             let [along, against] = users[edge as usize].map(at);
             along != against
+        });
+        let borders = parallel::map_light(edges.len(), |i| {
+            let edge = edges[i];
+            Border { edge, sides: users[edge as usize].map(at) }
         });
         Self { of_facet, looks: looks_of, sizes, borders }
     }
 
-    /// The regions on both sides of an edge.
-    fn beside(&self, soup: &Soup, edge: u32) -> [Option<usize>; 2] {
-        soup.facets_of_edge[edge as usize].map(|f| (f < MANY).then(|| self.of_facet[f as usize] as usize))
-    }
-
     /// For each region what may be its chart along each axis: facets that look the same way and are joined by edges. Also
     /// all of these.
-    fn candidates(&self, soup: &Soup) -> (Vec<[u32; 3]>, Vec<Chart>) {
+    fn candidates(&self) -> (Vec<[u32; 3]>, Vec<Chart>) {
         let n = self.looks.len();
         let mut sets = UnionFind::new(3 * n);
-        for &edge in &self.borders {
-            let [Some(a), Some(b)] = self.beside(soup, edge) else { continue };
+        for border in &self.borders {
+            let [Some(a), Some(b)] = border.beside() else { continue };
             let alike = self.looks[a] & self.looks[b];
             for k in (0..3).filter(|k| alike >> (2 * k) & 3 != 0) {
                 sets.union((3 * a + k) as u32, (3 * b + k) as u32);
@@ -307,10 +319,10 @@ impl Regions {
     /// The directed edges of each chart's boundary.
     fn boundaries(&self, soup: &Soup, charts: &[[u32; 3]], n: usize) -> Vec<Vec<[u32; 2]>> {
         let mut boundaries = vec![Vec::new(); n];
-        for &edge in &self.borders {
+        for border in &self.borders {
             let [along, against] =
-                self.beside(soup, edge).map(|region| region.map_or([NO_GROUP; 3], |region| charts[region]));
-            let [p, q] = soup.edges[edge as usize];
+                border.beside().map(|region| region.map_or([NO_GROUP; 3], |region| charts[region]));
+            let [p, q] = soup.edges[border.edge as usize];
             for k in (0..3).filter(|&k| along[k] != against[k]) {
                 for (chart, edge) in [(along[k], [p, q]), (against[k], [q, p])] {
                     if chart != NO_GROUP {
@@ -325,10 +337,10 @@ impl Regions {
     /// The points inside the mesh whose facets are in charts, but not all in one, ascending.
     fn between(&self, soup: &Soup, of_region: &[Shared]) -> Vec<u32> {
         let mut around: Vec<Shared> = parallel::zeros(soup.geometry.n_points());
-        for &edge in &self.borders {
-            if let [Some(a), Some(b)] = self.beside(soup, edge) {
+        for border in &self.borders {
+            if let [Some(a), Some(b)] = border.beside() {
                 let shared = of_region[a].with(of_region[b]);
-                for p in soup.edges[edge as usize] {
+                for p in soup.edges[border.edge as usize] {
                     let around = &mut around[p as usize];
                     *around = around.with(shared);
                 }

@@ -65,8 +65,8 @@ impl Groups {
             is_member[f as usize] = true;
             is_member[overlapping.find(f) as usize] = true;
         }
-        let members = (0..n as u32).filter(|&f| is_member[f as usize]);
-        let mut led: Vec<(u32, u32)> = members.map(|f| (overlapping.find(f), f)).collect();
+        let members = parallel::select(n, |f| is_member[f as usize]);
+        let mut led: Vec<(u32, u32)> = members.into_iter().map(|f| (overlapping.find(f), f)).collect();
         led.sort_unstable();
         let mut out = Self { leaders: Vec::new(), members: Cells::new(), is_member };
         for group in led.chunk_by(|a, b| a.0 == b.0) {

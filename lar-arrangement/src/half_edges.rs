@@ -90,7 +90,7 @@ fn firsts_by_sorting(half_edges: HalfEdges<'_>) -> Vec<u32> {
     first
 }
 
-/// O(n log d) for at most d edges at a vertex, when each thread mostly finds early points at early half-edges.
+/// O(n log d) for at most d edges at a vertex. Notes are few when early half-edges have early points.
 fn shared_firsts(n_points: usize, half_edges: HalfEdges<'_>) -> Vec<AtomicU32> {
     let first = parallel::atomic_zeros(half_edges.len());
     let points = Parts::new(n_points);
@@ -107,7 +107,7 @@ fn shared_firsts(n_points: usize, half_edges: HalfEdges<'_>) -> Vec<AtomicU32> {
     parallel::map_each(counts, |part, mut offsets| {
         let ends = |h: u32| half_edges.ends(h as usize);
         let place = points.places(part);
-        for [p, q] in notes.before(part).chain(notes.behind(part)).map(|&h| ends(h)) {
+        for [p, q] in notes.of(part).map(|&h| ends(h)) {
             offsets[place(p.min(q)) + 2] += 1;
         }
         for i in 2..offsets.len() {
@@ -226,7 +226,7 @@ pub(crate) fn facets_of_edges(n_edges: usize, facet_edges: &Cells) -> Vec<[u32; 
     });
     parallel::map_each(own, |part, own| {
         let place = edges.places(part);
-        for &(code, facet) in notes.before(part).chain(notes.behind(part)) {
+        for &(code, facet) in notes.of(part) {
             add(&mut own[place(code / 2)], code, facet);
         }
     });

@@ -78,6 +78,11 @@ impl<T: Send + Sync> Notes<T> {
         (made, Self(notes))
     }
 
+    /// Those for a part.
+    pub(crate) fn of(&self, part: usize) -> impl Iterator<Item = &T> {
+        self.before(part).chain(self.behind(part))
+    }
+
     /// Those for a part of who is before it.
     pub(crate) fn before(&self, part: usize) -> impl Iterator<Item = &T> {
         self.0[..part].iter().flat_map(move |notes| &notes[part])

@@ -460,31 +460,25 @@ pub(crate) fn all(n: usize, holds: impl Fn(usize) -> bool + Sync + Send) -> bool
 
 /// The numbers below n that are to be kept, ascending.
 pub(crate) fn select(n: usize, keep: impl Fn(u32) -> bool + Sync + Send) -> Vec<u32> {
-    let (n_chunks, range) = chunks(n, LIGHT_CHUNK);
-    // Puts those of a chunk into a list of as many numbers; returns how many there are.
-    let fill = |chunk: usize, list: &mut [u32]| {
-        let mut n = 0;
-        // Without a branch: often about as many are kept as are not.
-        for x in range(chunk) {
-            list[n] = x as u32;
-            n += usize::from(keep(x as u32));
+    const BLOCK: usize = 512;
+    let select = |range: Range<usize>| {
+        let (mut kept, mut block) = (Vec::with_capacity(range.len().min(LIGHT_CHUNK)), [0; BLOCK]);
+        for begin in range.clone().step_by(BLOCK) {
+            let mut n = 0;
+            // Without a branch: often about as many are kept as are not.
+            for x in begin..range.end.min(begin + BLOCK) {
+                block[n] = x as u32;
+                n += usize::from(keep(x as u32));
+            }
+            kept.extend_from_slice(&block[..n]);
         }
-        n
+        kept
     };
     if n_threads() == 1 {
-        let (mut all, mut list) = (Vec::new(), vec![0; n.min(LIGHT_CHUNK)]);
-        for chunk in 0..n_chunks {
-            let n = fill(chunk, &mut list);
-            all.extend_from_slice(&list[..n]);
-        }
-        return all;
+        return select(0..n);
     }
-    concat(&map(n_chunks, |chunk| {
-        let mut list = vec![0; range(chunk).len()];
-        let n = fill(chunk, &mut list);
-        list.truncate(n);
-        list
-    }))
+    let (n_chunks, range) = chunks(n, LIGHT_CHUNK);
+    concat(&map(n_chunks, |chunk| select(range(chunk))))
 }
 
 /// One of as many parts of 0..n as there are threads: for work that is the same however it is divided.

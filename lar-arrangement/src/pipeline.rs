@@ -2,7 +2,7 @@
 
 use crate::arrangement::Arrangement;
 use crate::assemble::{Operators, Shells, assemble};
-use crate::canonical::{self, Report, Scan};
+use crate::canonical::{self, Report, Scan, Tolerance};
 use crate::check;
 use crate::coplanar::{self, Overlay};
 use crate::crossing::{self, Contacts, Scratch};
@@ -311,11 +311,9 @@ impl<'a> Arranger<'a> {
     ) -> Result<(Soup, Meeting), ArrangementError> {
         course.begin("soup", stats)?;
         let placed = Placed::snapped(surfaces, |surface, size| self.error(surface, size))?;
-        let reach = match self.planes {
-            Planes::AsGiven => 0.0,
-            _ => placed.tolerances.iter().map(|t| t.planes()).fold(0.0, f64::max),
-        };
-        let distance = placed.tolerances.iter().map(|t| t.points()).fold(0.0, f64::max);
+        let largest = Tolerance::largest(&placed.tolerances);
+        let reach = if self.planes == Planes::AsGiven { 0.0 } else { largest.planes() };
+        let distance = largest.points();
         let mut soup = Soup::new(surfaces, placed);
         course.begin("pairs", stats)?;
         let mut meeting = Meeting::new(&soup, distance, reach, course)?;

@@ -72,7 +72,7 @@ pub(crate) fn faces_at_edges(n_edges: usize, loops: &Cells, face_loops: &[u32]) 
     });
     let counted = parallel::map_each(parts, |part, ends| {
         let place = edges.places(part);
-        notes.before(part).chain(notes.behind(part)).for_each(|&(h, _)| ends[place(h / 2)] += 1);
+        notes.of(part).for_each(|&(h, _)| ends[place(h / 2)] += 1);
         let n = ends.iter_mut().fold(0, |n, end| n + std::mem::replace(end, n));
         (ends, n as usize)
     });

@@ -23,6 +23,8 @@ pub struct Surface {
     loops: Cells,
     face_loops: Vec<u32>,
     coefficients: Vec<i8>,
+    /// Whether each face is one loop of three vertices.
+    are_triangles: bool,
 }
 
 impl Surface {
@@ -36,14 +38,17 @@ impl Surface {
             loops: Cells::new(),
             face_loops: vec![0],
             coefficients: Vec::new(),
+            are_triangles: true,
         }
     }
 
     /// Appends a face: its outer loop first, then its holes. Returns its index.
     pub fn push_face<'a>(&mut self, loops: impl IntoIterator<Item = &'a [u32]>, coefficient: i8) -> usize {
+        let first = self.loops.len();
         for cycle in loops {
             self.loops.push(cycle);
         }
+        self.are_triangles &= self.loops.len() == first + 1 && self.loops[first].len() == 3;
         self.face_loops.push(u32::try_from(self.loops.len()).expect("fewer than 2^32 loops"));
         self.coefficients.push(coefficient);
         self.coefficients.len() - 1
@@ -60,7 +65,7 @@ impl Surface {
         (self.face_loops[f]..self.face_loops[f + 1]).map(|l| &self.loops[l as usize])
     }
 
-    /// The vertices of the faces, three for each, when all faces are triangles without holes. O(n).
+    /// The vertices of the faces, three for each, when all faces are triangles without holes.
     ///
     /// ```
     /// use lar_core::{Cells, Surface, cuboid_grid, icosphere};
@@ -71,12 +76,7 @@ impl Surface {
     /// ```
     #[must_use]
     pub fn triangles(&self) -> Option<&[u32]> {
-        // Without a branch for each: nearly always all are looked at.
-        let all_differ_by = |offsets: &[u32], length| {
-            offsets.windows(2).fold(true, |all, w| all & (w[1].wrapping_sub(w[0]) == length))
-        };
-        let single = self.loops.len() == self.n_faces() && all_differ_by(&self.face_loops, 1);
-        (single && all_differ_by(self.loops.offsets(), 3)).then(|| self.loops.indices())
+        self.are_triangles.then(|| self.loops.indices())
     }
 
     /// The coefficient of face `f` in the boundary of the solid.
@@ -98,6 +98,7 @@ impl Surface {
     pub fn from_polygons(name: impl Into<String>, points: Points, polygons: Cells) -> Self {
         let n_faces = polygons.len();
         let face_loops = (0..=u32::try_from(n_faces).expect("fewer than 2^32 loops")).collect();
+        let are_triangles = polygons.iter().all(|polygon| polygon.len() == 3);
         Self {
             name: name.into(),
             points,
@@ -105,6 +106,7 @@ impl Surface {
             loops: polygons,
             face_loops,
             coefficients: vec![1; n_faces],
+            are_triangles,
         }
     }
 

@@ -44,7 +44,7 @@ const fn union(name: &'static str, operands: fn() -> Vec<TriangleMesh>) -> Workl
 }
 
 /// General position (many crossings, then few), coplanar faces, nesting, and growth.
-pub(crate) const WORKLOADS: [Workload; 24] = [
+pub(crate) const WORKLOADS: [Workload; 26] = [
     union("three-cubes", three_cubes),
     union("cubes-10", || cubes(10, 1.0)),
     union("cubes-30", || cubes(30, 1.0)),
@@ -55,6 +55,8 @@ pub(crate) const WORKLOADS: [Workload; 24] = [
     union("spheres-80k", || spheres(6)),
     union("spheres-320k", || spheres(7)),
     union("spheres-1M", || spheres(8)),
+    union("ball-320k", || vec![icosphere(7)]),
+    union("ball-1M", || vec![icosphere(8)]),
     union("shifted-128", || grids(&shifted(), cubes_apart)),
     union("shifted-2", || grids(&shifted(), cubes_touching)),
     union("shifted-welded", || grids(&shifted(), cubes_welded)),

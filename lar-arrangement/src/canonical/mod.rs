@@ -46,6 +46,21 @@ impl Tolerance {
         Self { error: self.error.max(other.error) }
     }
 
+    /// The largest of all points.
+    pub(crate) fn largest(tolerances: &[Self]) -> Self {
+        const LANES: usize = 4;
+        let (n_chunks, range) = parallel::chunks(tolerances.len(), parallel::LIGHT_CHUNK);
+        let of_chunks = parallel::map(n_chunks, |chunk| {
+            // Several at a time: one after the other, each comparison would wait for the one before.
+            let (several, rest) = tolerances[range(chunk)].as_chunks::<LANES>();
+            let largest = several.iter().fold([Self::default(); LANES], |largest, several| {
+                std::array::from_fn(|lane| largest[lane].max(several[lane]))
+            });
+            largest.iter().chain(rest).copied().fold(Self::default(), Self::max)
+        });
+        of_chunks.into_iter().fold(Self::default(), Self::max)
+    }
+
     /// The largest of some points.
     pub(crate) fn of(tolerances: &[Self], points: impl Iterator<Item = u32>) -> Self {
         points.fold(Self::default(), |max, p| max.max(tolerances[p as usize]))

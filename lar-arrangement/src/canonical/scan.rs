@@ -47,8 +47,7 @@ impl Scan {
             let is_across = outlines.outlines[f].is_across(&outlines.outlines[g]);
             !is_across && are_nearly_coplanar(input, *pair, |f| *outlines.shape(f))
         };
-        let largest =
-            input.soup.tolerances.iter().copied().fold(Tolerance::default(), Tolerance::max).planes();
+        let largest = Tolerance::largest(&input.soup.tolerances).planes();
         let of_pairs = || {
             let (n_chunks, range) = parallel::chunks(input.pairs.len(), PAIRS_A_CHUNK);
             course.map(n_chunks, |chunk| {
