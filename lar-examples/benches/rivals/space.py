@@ -30,8 +30,8 @@ TURNS = 3
 SECONDS, TIMES = 2.0, 25
 PACKAGES = {"trueform": "trueform==0.10.7", "manifold3d": "manifold3d==3.5.4", "meshlib": "meshlib==3.1.4.297"}
 RUST = ["manifold-rust", "boolmesh"]
-# Too many operands to be united two at a time, and nobody else's measure: for growth only.
-OURS_ONLY = ["scattered-100k", "scattered-1M"]
+# Nobody else's measure, as there is one operand, or too many to be united two at a time: for threads and growth only.
+OURS_ONLY = ["ball-320k", "ball-1M", "scattered-100k", "scattered-1M"]
 WORKLOADS = [
     "three-cubes", "cubes-10", "cubes-30", "cubes-100", "cubes-300",
     "spheres-5k", "spheres-20k", "spheres-80k", "spheres-320k", "spheres-1M",
