@@ -521,4 +521,20 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn numbers_are_selected_in_their_order() {
+        for n in [0, 1, 511, 512, 513, 4096, 4097, 20_000] {
+            for keep in [|_| true, |_| false, |x: u32| x.is_multiple_of(3), |x: u32| x / 600 % 2 == 1] {
+                let expected: Vec<u32> = (0..n as u32).filter(|&x| keep(x)).collect();
+                for threads in 1..=3 {
+                    let team = Team::new(NonZeroUsize::new(threads));
+                    assert_eq!(
+                        team.work(usize::MAX, || select(n, keep)).expect("there are threads"),
+                        expected
+                    );
+                }
+            }
+        }
+    }
 }

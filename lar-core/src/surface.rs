@@ -133,3 +133,30 @@ impl Surface {
         Ok(moved)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn triangles_are_known_however_faces_come() {
+        let (outer, hole, quad) = ([0, 1, 2], [3, 4, 5], [0, 1, 2, 3]);
+        let mut surface = Surface::new("faces", Points::from_xyz(&[[0.0; 3]; 6]));
+        assert_eq!(surface.triangles(), Some(&[][..]));
+        surface.push_face([&outer[..]], 1);
+        surface.push_face([&hole[..]], 1);
+        assert_eq!(surface.triangles(), Some(&[0, 1, 2, 3, 4, 5][..]));
+        for odd in [vec![&outer[..], &hole], vec![&quad[..]], vec![]] {
+            let mut mixed = surface.clone();
+            mixed.push_face(odd, 1);
+            mixed.push_face([&outer[..]], 1);
+            assert_eq!(mixed.triangles(), None);
+        }
+        let polygons = |lists: &[&[u32]]| {
+            let cells = lists.iter().map(|l| l.to_vec()).collect();
+            Surface::from_polygons("polygons", surface.points.clone(), cells).triangles().map(<[u32]>::len)
+        };
+        assert_eq!(polygons(&[&outer, &hole]), Some(6));
+        assert_eq!(polygons(&[&outer, &quad]), None);
+    }
+}

@@ -197,3 +197,20 @@ fn carried(tolerances: &[Tolerance], new_id: &[u32]) -> Vec<Tolerance> {
     }
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Tolerance;
+
+    #[test]
+    fn the_largest_tolerance_is_found_wherever_it_is() {
+        assert_eq!(Tolerance::largest(&[]), Tolerance::default());
+        for n in [1, 3, 4, 5, 4095, 4096, 4097, 9000] {
+            for at in [0, n / 2, n - 1] {
+                let mut tolerances = vec![Tolerance::new(1.5); n];
+                tolerances[at] = Tolerance::new(2.5);
+                assert_eq!(Tolerance::largest(&tolerances), Tolerance::new(2.5));
+            }
+        }
+    }
+}
