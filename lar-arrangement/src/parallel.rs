@@ -460,6 +460,7 @@ pub(crate) fn all(n: usize, holds: impl Fn(usize) -> bool + Sync + Send) -> bool
 
 /// The numbers below n that are to be kept, ascending.
 pub(crate) fn select(n: usize, keep: impl Fn(u32) -> bool + Sync + Send) -> Vec<u32> {
+    // Few enough to be zeroed for nothing, many enough that adding them to a list is little work beside. Not tuned.
     const BLOCK: usize = 512;
     let select = |range: Range<usize>| {
         let (mut kept, mut block) = (Vec::with_capacity(range.len().min(LIGHT_CHUNK)), [0; BLOCK]);
