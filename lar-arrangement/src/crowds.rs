@@ -22,7 +22,7 @@ use wide::u8x16;
 /// Fewer facets are not worth it.
 const FEW: usize = 1 << 12;
 /// Of so many facets most begin where it is not crowded, and need no closer look.
-const MANY: usize = 1 << 15;
+pub(crate) const MANY: usize = 1 << 15;
 /// There are so many voxels a facet in a cube around the scene.
 const VOXELS_A_FACET: f64 = 3.0;
 /// And no more than so many: a place fits into eight bits.
@@ -32,14 +32,14 @@ const MOST_VOXELS_A_FACET: usize = 16;
 /// A facet that is too large for one voxel.
 const LARGE: u32 = u32::MAX;
 
-/// The facets whose boxes, larger by `reach` on all sides, may meet that of one that shares no chart with it, ascending;
-/// `None` when they are not worth to be told from the others. O(n).
-pub(crate) fn facets(soup: &Soup, charts: &Charts, reach: f64, all: &Aabb) -> Option<Vec<u32>> {
+/// The facets whose boxes, larger than the facets by what the voxels were made with, may meet that of one that shares no chart with it,
+/// ascending; `None` when they are not worth to be told from the others. O(n).
+pub(crate) fn facets(soup: &Soup, charts: &Charts, voxels: impl FnOnce() -> Voxels) -> Option<Vec<u32>> {
     let n = soup.n_facets();
     if n < FEW || 4 * charts.without.len() > n {
         return None;
     }
-    let voxels = Voxels::new(soup, all, reach);
+    let voxels = voxels();
     let mut marks: Vec<Shared> = parallel::zeros(voxels.size.iter().product());
     let looked_at: Vec<u32> =
         if n < MANY { (0..n as u32).collect() } else { voxels.in_crowds(soup, charts, &mut marks)? };
@@ -83,15 +83,19 @@ fn width(block: Block) -> [usize; 3] {
     [0, 1, 2].map(|k| usize::from(!block[4 + k] - block[k]))
 }
 
-struct Voxels {
+/// Voxels, and where the facets of a soup are among them.
+pub(crate) struct Voxels {
     /// Number of voxels along each axis; the last has no upper neighbour and nothing begins there.
     size: [usize; 3],
     /// Around each point.
     blocks: Vec<Block>,
+    /// Where each facet begins, when there are many.
+    firsts: Vec<u32>,
 }
 
 impl Voxels {
-    fn new(soup: &Soup, all: &Aabb, reach: f64) -> Self {
+    /// For boxes that are larger by `reach`, all of which are in one. O(n).
+    pub(crate) fn new(soup: &Soup, all: &Aabb, reach: f64) -> Self {
         let extent: [f64; 3] = std::array::from_fn(|k| all.hi[k] - all.lo[k]);
         let longest = extent.iter().copied().fold(1.0, f64::max);
         let scale = (soup.n_facets() as f64 * VOXELS_A_FACET).cbrt().min(MOST_VOXELS) / longest;
@@ -107,7 +111,11 @@ impl Voxels {
             }
             block
         });
-        Self { size: end.map(|end| usize::from(end) + 2), blocks }
+        let mut out = Self { size: end.map(|end| usize::from(end) + 2), blocks, firsts: Vec::new() };
+        if soup.n_facets() >= MANY {
+            out.firsts = parallel::map_light(soup.n_facets(), |f| out.first(out.block(soup, f as u32)));
+        }
+        out
     }
 
     /// The block of a facet.
@@ -145,7 +153,7 @@ impl Voxels {
     /// Every thread looks at all facets for its part of the voxels.
     fn in_crowds(&self, soup: &Soup, charts: &Charts, marks: &mut [Shared]) -> Option<Vec<u32>> {
         let n = soup.n_facets();
-        let firsts = parallel::map_light(n, |f| self.first(self.block(soup, f as u32)));
+        let firsts = &self.firsts;
         let large = parallel::select(n, |f| firsts[f as usize] == LARGE);
         let blocks: Vec<Block> = large.iter().map(|&facet| self.block(soup, facet)).collect();
         self.bound(n, blocks.iter())?;
@@ -265,7 +273,7 @@ mod tests {
         let charts = Charts::new(&soup, 1.5, &course).expect("nobody cancels");
         let boxes: Vec<Aabb> = (0..soup.n_facets() as u32).map(|f| box_of(&soup, f).larger(reach)).collect();
         let all = boxes.iter().fold(Aabb::EMPTY, |all, b| all.joined(b));
-        let crowded = facets(&soup, &charts, reach, &all);
+        let crowded = facets(&soup, &charts, || Voxels::new(&soup, &all, reach));
         assert_eq!(crowded.is_some(), expected);
         let Some(crowded) = crowded else { return };
         let is_other = |[i, j]: [u32; 2], _: [f32; 2]| !charts.are_one(i, j);

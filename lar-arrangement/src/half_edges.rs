@@ -1,4 +1,5 @@
-//! Stage 1d: half-edges with the same ends are one edge, found by a counting sort over the smaller ends.
+//! Stage 1d: half-edges with the same ends are one edge, found by a counting sort over the larger ends: where a mesh is refined
+//! step by step these are of the last step, numbered as its triangles are.
 
 use crate::notes::{Notes, Parts};
 use crate::parallel;
@@ -90,37 +91,37 @@ fn firsts_by_sorting(half_edges: HalfEdges<'_>) -> Vec<u32> {
     first
 }
 
-/// O(n log d) for at most d edges at a vertex. Notes are few when early half-edges have early points.
+/// O(n log d) for at most d edges at a vertex. Notes are few when half-edges near each other have larger ends near each other.
 fn shared_firsts(n_points: usize, half_edges: HalfEdges<'_>) -> Vec<AtomicU32> {
     let first = parallel::atomic_zeros(half_edges.len());
-    let points = Parts::new(n_points);
+    let points = Parts::with_equal_shares(n_points, half_edges.len(), |h| upper(half_edges.ends(h)));
     let lengths: Vec<usize> = points.lengths().collect();
     let (counts, notes) = Notes::of_all(&points, lengths, |part, n, pad| {
         let mut counts = vec![0u32; n + 2];
         let (of_points, place) = (&mut counts[2..], points.places(part));
-        half_edges.for_each(half_edges.part(part), |h, [p, q]| match of_points.get_mut(place(p.min(q))) {
+        half_edges.for_each(half_edges.part(part), |h, ends| match of_points.get_mut(place(upper(ends))) {
             Some(n) => *n += 1,
-            None => pad.note(p.min(q), h),
+            None => pad.note(upper(ends), h),
         });
         counts
     });
     parallel::map_each(counts, |part, mut offsets| {
         let ends = |h: u32| half_edges.ends(h as usize);
         let place = points.places(part);
-        for [p, q] in notes.of(part).map(|&h| ends(h)) {
-            offsets[place(p.min(q)) + 2] += 1;
+        for ends in notes.of(part).map(|&h| ends(h)) {
+            offsets[place(upper(ends)) + 2] += 1;
         }
         for i in 2..offsets.len() {
             offsets[i] += offsets[i - 1];
         }
-        // The second number of point i is where its next entry goes; in the end, where those of i + 1 begin. An entry is the larger
+        // The second number of point i is where its next entry goes; in the end, where those of i + 1 begin. An entry is the smaller
         // end and the half-edge.
         let mut entries = vec![(0u32, 0u32); offsets.last().map_or(0, |&n| n as usize)];
         let n = points.range(part).len();
         let begins = &mut offsets[1..=n];
         let mut push = |h: u32, [p, q]: [u32; 2]| {
-            if let Some(at) = begins.get_mut(place(p.min(q))) {
-                entries[*at as usize] = (p.max(q), h);
+            if let Some(at) = begins.get_mut(place(p.max(q))) {
+                entries[*at as usize] = (p.min(q), h);
                 *at += 1;
             }
         };
@@ -134,12 +135,17 @@ fn shared_firsts(n_points: usize, half_edges: HalfEdges<'_>) -> Vec<AtomicU32> {
     first
 }
 
-/// Notes the first half-edge of each edge whose smaller end is one point: its entries are the larger ends and the half-edges,
+/// The larger end of a half-edge.
+fn upper([p, q]: [u32; 2]) -> u32 {
+    p.max(q)
+}
+
+/// Notes the first half-edge of each edge whose larger end is one point: its entries are the smaller ends and the half-edges,
 /// these ascending.
 fn join_edges_at_point(around: &mut [(u32, u32)], first: &[AtomicU32]) {
     if around.len() <= FEW {
-        for &(upper, h) in around.iter() {
-            let same = around.iter().find(|other| other.0 == upper).expect("it is one of them");
+        for &(lower, h) in around.iter() {
+            let same = around.iter().find(|other| other.0 == lower).expect("it is one of them");
             first[h as usize].store(same.1, Relaxed);
         }
         return;

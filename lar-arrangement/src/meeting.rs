@@ -5,8 +5,9 @@ use crate::beams::{self, TARGETS_A_PASS};
 use crate::boxes::{Aabb, BoxTree, Near};
 use crate::canonical::Input;
 use crate::charts::Charts;
-use crate::crowds;
+use crate::crowds::{self, Voxels};
 use crate::curve;
+use crate::parallel;
 use crate::progress::{Cancelled, Course};
 use crate::soup::Soup;
 use crate::stars::Stars;
@@ -28,9 +29,15 @@ pub(crate) struct Meeting {
 impl Meeting {
     /// Boxes are larger by `reach`; `distance` is that of points that are nearly one.
     pub(crate) fn new(soup: &Soup, distance: f64, reach: f64, course: &Course) -> Result<Self, Cancelled> {
-        let charts = Charts::new(soup, distance, course)?;
-        let stars = Stars::new(soup, &charts, distance);
         let all = hull(soup).larger(reach);
+        let voxels = || Voxels::new(soup, &all, reach);
+        // Some of what finds charts keeps one thread busy. It is not known yet whether voxels are needed, but mostly they are.
+        let (charts, ahead) = parallel::join(
+            || Charts::new(soup, distance, course),
+            || (soup.n_facets() >= crowds::MANY && parallel::n_threads() > 1).then(voxels),
+        );
+        let charts = charts?;
+        let stars = Stars::new(soup, &charts, distance);
         let is_open = |[f, g]: [u32; 2], sizes: [f32; 2]| {
             !charts.are_one(f, g)
                 && !stars.settle(&soup.geometry, f, g)
@@ -38,7 +45,7 @@ impl Meeting {
         };
         let keeps_off = |f: u32, target: &Near<3>| apart::keeps_off(soup, f, target, reach);
         let tree = OnceLock::new();
-        let pairs = match crowds::facets(soup, &charts, reach, &all) {
+        let pairs = match crowds::facets(soup, &charts, || ahead.unwrap_or_else(voxels)) {
             Some(crowded) => {
                 let facet = |i: u32| crowded[i as usize];
                 let box_of = |i| box_of(soup, facet(i)).larger(reach);

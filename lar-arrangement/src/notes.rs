@@ -13,6 +13,9 @@
 use crate::parallel;
 use std::ops::Range;
 
+/// So many users for each part are asked what they use.
+const ASKED: usize = 256;
+
 /// 0..n in as many parts as there are threads.
 pub(crate) struct Parts {
     begins: Vec<usize>,
@@ -22,6 +25,24 @@ impl Parts {
     pub(crate) fn new(n: usize) -> Self {
         let begins = (0..=parallel::n_threads()).map(|part| parallel::part_of(n, part).start);
         Self { begins: begins.collect() }
+    }
+
+    /// The same, so that each has about as many of some users: the u-th of `n_users` uses `used(u)`.
+    pub(crate) fn with_equal_shares(n: usize, n_users: usize, used: impl Fn(usize) -> u32) -> Self {
+        let n_parts = parallel::n_threads();
+        if n_parts == 1 {
+            return Self::new(n);
+        }
+        let n_asked = n_users.min(ASKED * n_parts);
+        let mut asked: Vec<u32> =
+            (0..n_asked).map(|i| used((i as u64 * n_users as u64 / n_asked as u64) as usize)).collect();
+        asked.sort_unstable();
+        let begin = |part: usize| match part {
+            0 => 0,
+            _ if part == n_parts || asked.is_empty() => n,
+            _ => asked[part * n_asked / n_parts] as usize,
+        };
+        Self { begins: (0..=n_parts).map(begin).collect() }
     }
 
     pub(crate) fn range(&self, part: usize) -> Range<usize> {
@@ -91,5 +112,32 @@ impl<T: Send + Sync> Notes<T> {
     /// Those for a part of who is behind it.
     pub(crate) fn behind(&self, part: usize) -> impl Iterator<Item = &T> {
         self.0[part..].iter().flat_map(move |notes| &notes[part])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::num::NonZeroUsize;
+
+    /// The lengths of the parts of 0..n for the users of some things on three threads.
+    fn check(n: usize, used: &[u32], expected: [usize; 3]) {
+        let lengths = || Parts::with_equal_shares(n, used.len(), |u| used[u]).lengths().collect::<Vec<_>>();
+        let team = parallel::Team::new(NonZeroUsize::new(3));
+        assert_eq!(team.work(usize::MAX, lengths).expect("there are threads"), expected);
+    }
+
+    #[test]
+    fn parts_have_equal_shares_of_the_users() {
+        let each: Vec<u32> = (0..600).collect();
+        check(600, &each, [200, 200, 200]);
+        // What comes early is used as little as in a mesh that was refined.
+        let late: Vec<u32> = each.iter().map(|x| 400 + x / 3).collect();
+        check(600, &late, [466, 67, 67]);
+        let downwards: Vec<u32> = each.iter().rev().copied().collect();
+        check(600, &downwards, [200, 200, 200]);
+        check(600, &[5; 40], [5, 0, 595]);
+        check(600, &[], [600, 0, 0]);
+        check(0, &[], [0, 0, 0]);
     }
 }

@@ -23,8 +23,8 @@ import report  # noqa: E402
 
 # Turns on one thread, on two threads.
 REPETITIONS = {1: 5, 2: 3}
-# Turns of what is compared with itself: by threads, by size.
-TURNS = 3
+# Turns of what is compared with itself, by threads, by size, by position: of what is short, of what is not.
+TURNS = {True: 9, False: 3}
 # How long, and how often at most, an operation is repeated in one process: the first one touches all its memory for the
 # first time, and does not count if there is another.
 SECONDS, TIMES = 2.0, 25
@@ -84,18 +84,20 @@ class Comparison:
         if os.cpu_count() > 1 and row["cells 1"]["lar"]["facets"] > report.LARGE:
             copies = [sys.executable, harness.HERE / "copies.py", 2, *self.operation(1)]
             commands = {"lar": self.lar(1), "two threads": self.lar(2), "two copies": copies}
-            row["turns"] = harness.turns({name: [*command, workload] for name, command in commands.items()}, TURNS)
+            is_short = row["cells 1"]["lar"]["wall"] < SECONDS
+            commands = {name: [*command, workload] for name, command in commands.items()}
+            row["turns"] = harness.turns(commands, TURNS[is_short])
         return row
 
-    def grown(self, rows, workloads):
-        """The members of a family by turns, each in memory that its process has touched before: what only the size tells apart
-        has met the same minutes."""
+    def by_turns(self, rows, workloads):
+        """Workloads by turns, each in memory that its process has touched before: what is compared has met the same minutes."""
         commands = {}
+        is_short = all(rows[workload]["cells 1"]["lar"]["wall"] < SECONDS for workload in workloads)
         for workload in workloads:
             is_long = rows[workload]["cells 1"]["lar"]["repeat"] == 1
             times = ["--repeat", 2, "--seconds", math.inf] if is_long else []
             commands[workload] = [*self.lar(1), workload, *times]
-        return harness.turns(commands, TURNS, 3 * harness.LIMIT)
+        return harness.turns(commands, TURNS[is_short], 3 * harness.LIMIT)
 
     def run(self, engines, workload, operation, threads):
         family = self.too_large.setdefault((workload.split("-")[0], operation, threads), {})
@@ -149,10 +151,10 @@ def main():
         check(workload, rows[workload])
         results.write_text(json.dumps(rows, indent=1))
     rows = {workload: rows[workload] for workload in WORKLOADS if workload in rows}
-    for family in report.families(rows):
-        if set(family) & set(options.only):
-            for workload, result in comparison.grown(rows, family).items():
-                rows[workload]["growth"] = {"lar": result}
+    for workloads in [*report.families(rows), report.grids(rows)]:
+        if set(workloads) & set(options.only):
+            for workload, result in comparison.by_turns(rows, workloads).items():
+                rows[workload]["by turns"] = {"lar": result}
             results.write_text(json.dumps(rows, indent=1))
     harness.write_section("space", report.section(rows))
     picture = harness.DOCUMENT.with_name("benchmarks-space.svg")

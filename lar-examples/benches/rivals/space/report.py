@@ -109,16 +109,41 @@ def families(rows):
     return [[w for w in workloads if w in rows] for workloads in named]
 
 
+def grids(rows):
+    """What was measured of operands in general position, and in common planes."""
+    return [w for w in [GENERAL, *ALIGNED, *TURNED] if w in rows]
+
+
+def by_turns(row):
+    return row["by turns"]["lar"]
+
+
 def grown(rows):
     yield from table(
         ["workload", "ns per each", "times the family's least"],
         (
-            [w, f"{unit(rows[w]['growth']['lar']):.0f}", f"{unit(rows[w]['growth']['lar']) / least:.2f}"]
-            for family in families(rows) if family and all("growth" in rows[w] for w in family)
-            for least in [min(unit(rows[w]["growth"]["lar"]) for w in family)]
+            [w, f"{unit(by_turns(rows[w])):.0f}", f"{unit(by_turns(rows[w])) / least:.2f}"]
+            for family in families(rows) if family and all("by turns" in rows[w] for w in family)
+            for least in [min(unit(by_turns(rows[w])) for w in family)]
             for w in family
         ),
     )  # fmt: skip
+
+
+def crowded(rows):
+    workloads = [w for w in grids(rows) if "by turns" in rows[w]]
+    yield from table(
+        ["workload", "µs per cell", f"times that of {GENERAL}"],
+        (
+            [w, f"{1e6 * per_cell(by_turns(rows[w])):.1f}", f"{per_cell(by_turns(rows[w])) / general:.2f}"]
+            for general in ([per_cell(by_turns(rows[GENERAL]))] if GENERAL in workloads else [])
+            for w in workloads
+        ),
+    )  # fmt: skip
+
+
+def per_cell(result):
+    return result["cpu"] / result["counts"][3]
 
 
 def size(result):
@@ -171,7 +196,7 @@ def targets(rows):
 
     def growth():
         for family in families(rows):
-            units = {w: unit(rows[w]["growth"]["lar"]) for w in family if "growth" in rows[w]}
+            units = {w: unit(by_turns(rows[w])) for w in family if "by turns" in rows[w]}
             if len(units) > 1:
                 yield max(units.values()) / min(units.values()), f"{max(units, key=units.get)}, {min(units, key=units.get)}"
 
@@ -182,11 +207,10 @@ def targets(rows):
                 yield memory_share(result, n_cells(result["counts"])), w
 
     def degenerate(workloads):
-        general = rows.get(GENERAL, {}).get("cells 1", {}).get("lar")
-        for w in workloads if general else []:
-            if w in rows:
-                r = rows[w]["cells 1"]["lar"]
-                yield (r["cpu"] / r["counts"][3]) / (general["cpu"] / general["counts"][3]), w
+        measured = [w for w in grids(rows) if "by turns" in rows[w]]
+        for w in workloads if GENERAL in measured else []:
+            if w in measured:
+                yield per_cell(by_turns(rows[w])) / per_cell(by_turns(rows[GENERAL])), w
 
     def halves():
         for w, row in rows.items():
@@ -259,8 +283,8 @@ cell.
 ### Two threads
 
 Wall time. *Two copies*: how many times as much two processes of one thread each get done at once as one of them alone. More than
-that no two threads can get out of the machine. Where it is told, one thread, two, and the copies ran by turns, all of them
-three times.
+that no two threads can get out of the machine. Where it is told, one thread, two, and the copies ran by turns, nine times,
+or three times where one takes over 2 s.
 
 {text(threads(rows))}
 
@@ -270,10 +294,14 @@ All cells, one thread; memory is the peak of the process during the operation be
 
 {text(costs(rows))}
 
-Members of a family by turns, three times, each in memory that its process has touched before, so that only their sizes tell
+Members of a family by turns, as often, each in memory that its process has touched before, so that only their sizes tell
 them apart:
 
 {text(grown(rows))}
+
+Operands in general position and in common planes, likewise:
+
+{text(crowded(rows))}
 
 Share of the stages in the time, in per cent:
 
