@@ -90,11 +90,11 @@ def copies(row):
 
 def threads(rows):
     yield from table(
-        ["workload", "cells, 1 thread", "2 threads", "ratio", "two copies", "Boolean, 1 thread", "2 threads", "ratio",
+        ["workload", "cells, 1 thread", "2 threads", "ratio", "turns", "two copies", "Boolean, 1 thread", "2 threads", "ratio",
          "fastest other, 2 threads", "lar ÷ fastest"],
         (
             [name,
-             *halved(row, "cells"), copies(row), *halved(row, "boolean"),
+             *halved(row, "cells"), row["turns"]["lar"]["n"] if "turns" in row else "–", copies(row), *halved(row, "boolean"),
              f"{milliseconds(row['boolean 2'][best], 'wall')} ({best})" if best else "–",
              f"{row['boolean 2']['lar']['wall'] / row['boolean 2'][best]['wall']:.2f}" if best else "–"]
             for name, row in rows.items() if "cells 2" in row
@@ -120,9 +120,9 @@ def by_turns(row):
 
 def grown(rows):
     yield from table(
-        ["workload", "ns per each", "times the family's least"],
+        ["workload", "turns", "ns per each", "times the family's least"],
         (
-            [w, f"{unit(by_turns(rows[w])):.0f}", f"{unit(by_turns(rows[w])) / least:.2f}"]
+            [w, by_turns(rows[w])["n"], f"{unit(by_turns(rows[w])):.0f}", f"{unit(by_turns(rows[w])) / least:.2f}"]
             for family in families(rows) if family and all("by turns" in rows[w] for w in family)
             for least in [min(unit(by_turns(rows[w])) for w in family)]
             for w in family
@@ -133,9 +133,9 @@ def grown(rows):
 def crowded(rows):
     workloads = [w for w in grids(rows) if "by turns" in rows[w]]
     yield from table(
-        ["workload", "µs per cell", f"times that of {GENERAL}"],
+        ["workload", "turns", "µs per cell", f"times that of {GENERAL}"],
         (
-            [w, f"{1e6 * per_cell(by_turns(rows[w])):.1f}", f"{per_cell(by_turns(rows[w])) / general:.2f}"]
+            [w, by_turns(rows[w])["n"], f"{1e6 * per_cell(by_turns(rows[w])):.1f}", f"{per_cell(by_turns(rows[w])) / general:.2f}"]
             for general in ([per_cell(by_turns(rows[GENERAL]))] if GENERAL in workloads else [])
             for w in workloads
         ),
@@ -283,8 +283,7 @@ cell.
 ### Two threads
 
 Wall time. *Two copies*: how many times as much two processes of one thread each get done at once as one of them alone. More than
-that no two threads can get out of the machine. Where it is told, one thread, two, and the copies ran by turns, nine times,
-or three times where one takes over 2 s.
+that no two threads can get out of the machine. Where it is told, one thread, two, and the copies ran by turns, so many times.
 
 {text(threads(rows))}
 
@@ -294,7 +293,7 @@ All cells, one thread; memory is the peak of the process during the operation be
 
 {text(costs(rows))}
 
-Members of a family by turns, as often, each in memory that its process has touched before, so that only their sizes tell
+Members of a family by turns, each in memory that its process has touched before, so that only their sizes tell
 them apart:
 
 {text(grown(rows))}
