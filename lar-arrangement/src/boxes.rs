@@ -24,8 +24,8 @@ impl<const D: usize> Aabb<D> {
 
     pub(crate) fn joined(&self, other: &Self) -> Self {
         Self {
-            lo: std::array::from_fn(|k| self.lo[k].min(other.lo[k])),
-            hi: std::array::from_fn(|k| self.hi[k].max(other.hi[k])),
+            lo: std::array::from_fn(|k| if other.lo[k] < self.lo[k] { other.lo[k] } else { self.lo[k] }),
+            hi: std::array::from_fn(|k| if other.hi[k] > self.hi[k] { other.hi[k] } else { self.hi[k] }),
         }
     }
 

@@ -11,6 +11,7 @@
 //!  F ∩ G   ──────●═══●───────●═══●──
 //! ```
 
+use crate::beside::Corners;
 use crate::boxes::Aabb;
 use crate::kernel::{Along, Direction, Geometry, Side, Sign, Spot, Vertex, VertexDef, crossing_near};
 use crate::soup::Soup;
@@ -157,7 +158,7 @@ impl Stop {
 struct Outline {
     facet: u32,
     /// The tails of its directed edges.
-    corners: Vec<Spot>,
+    corners: Corners,
     /// Where each lies to the plane of the other facet.
     sides: Vec<Side>,
 }
@@ -166,14 +167,13 @@ impl Outline {
     /// O(its edges), of which there are at most 64; nothing to do for the facet that is there.
     fn read(&mut self, soup: &Soup, facet: u32) {
         let geometry = &soup.geometry;
-        if self.facet == facet && !self.corners.is_empty() {
+        if self.facet == facet && !self.corners.spots.is_empty() {
             return;
         }
         self.facet = facet;
-        self.corners.clear();
         match &soup.facet_edges[facet as usize] {
-            [_, _, _] => self.corners.extend(geometry.base(facet).map(|p| geometry.spot(p))),
-            edges => self.corners.extend(edges.iter().map(|&edge| geometry.spot(soup.directed(edge)[0]))),
+            [_, _, _] => self.corners.read(geometry.base(facet).map(|p| geometry.spot(p))),
+            edges => self.corners.read_all(edges.iter().map(|&edge| geometry.spot(soup.directed(edge)[0]))),
         }
     }
 
@@ -182,7 +182,7 @@ impl Outline {
         let (of_g, plane) = (soup.geometry.base(g), soup.geometry.seen_from(g));
         let (mut below, mut above, mut on, mut shares) = (false, false, false, false);
         self.sides.clear();
-        self.sides.extend(self.corners.iter().map(|corner| {
+        self.sides.extend(self.corners.spots.iter().map(|corner| {
             let side = plane.side(corner);
             let is_shared = of_g.iter().fold(false, |is_shared, &p| is_shared | (p == corner.p));
             below |= side.sign == Sign::Negative;
@@ -191,7 +191,7 @@ impl Outline {
             shares |= is_shared;
             side
         }));
-        let are_triangles = || self.corners.len() == 3 && soup.is_triangle(g);
+        let are_triangles = || self.corners.spots.len() == 3 && soup.is_triangle(g);
         match (below, above) {
             (true, true) => Position::Across,
             (false, false) => Position::Coplanar,
@@ -203,14 +203,14 @@ impl Outline {
     /// For a facet that touches the plane of another: whether its corners there lie where the other is not. A quick test: their
     /// box against that of the other; rounding is monotone.
     fn is_outside(&self, other: &Self) -> bool {
-        let corners = self.corners.iter().zip(&self.sides);
+        let corners = self.corners.spots.iter().zip(&self.sides);
         let on_plane = corners.filter(|(_, side)| side.sign == Sign::Zero).map(|(corner, _)| corner.at);
-        !Aabb::around(on_plane).meets(&Aabb::around(other.corners.iter().map(|corner| corner.at)))
+        !Aabb::around(on_plane).meets(&other.corners.hull)
     }
 
     /// Where edge i, from one corner to another, passes through the plane of g.
     fn crossing(&self, edge: u32, [from, to]: [usize; 2], g: u32, axis: usize) -> Stop {
-        let [p, q] = [from, to].map(|corner| &self.corners[corner]);
+        let [p, q] = [from, to].map(|corner| &self.corners.spots[corner]);
         let sides = [from, to].map(|corner| &self.sides[corner]);
         Stop::inside(Site::Inside { edge, facet: g }, crossing_near([p, q], sides, axis))
     }
@@ -244,15 +244,27 @@ pub(crate) fn meet(soup: &Soup, f: u32, g: u32, scratch: &mut Scratch, out: &mut
     }
     let [of_f, of_g] = &mut scratch.outlines;
     of_f.read(soup, f);
+    // Facets along two axes mostly belong to boxes, and these to grids, where most pairs lie side by side. Of others this is
+    // not asked before it is known that they touch.
+    let is_flat = of_f.corners.are_flat();
+    if is_flat {
+        of_g.read(soup, g);
+        if of_f.corners.are_beside(&of_g.corners) {
+            return;
+        }
+    }
     let position = of_f.classify(soup, g);
-    match position {
-        Position::Apart => return,
-        Position::Coplanar => return out.coplanar.push([f, g]),
-        Position::Touching | Position::Across => {}
+    if position == Position::Apart {
+        return;
     }
     of_g.read(soup, g);
-    if position == Position::Touching && of_f.is_outside(of_g) {
+    if !is_flat && position != Position::Across && of_f.corners.are_beside(&of_g.corners) {
         return;
+    }
+    match position {
+        Position::Coplanar => return out.coplanar.push([f, g]),
+        Position::Touching if of_f.is_outside(of_g) => return,
+        _ => {}
     }
     match of_g.classify(soup, f) {
         Position::Apart | Position::Coplanar => return,
@@ -262,7 +274,7 @@ pub(crate) fn meet(soup: &Soup, f: u32, g: u32, scratch: &mut Scratch, out: &mut
     let axis = soup.geometry.axis_of_line([f, g]);
     for (i, other) in [g, f].into_iter().enumerate() {
         let (outline, stops) = (&scratch.outlines[i], &mut scratch.traces[i]);
-        match outline.corners.len() {
+        match outline.corners.spots.len() {
             3 => trace_triangle(soup, outline, other, axis, stops),
             _ => trace(soup, outline, other, axis, &mut scratch.on_line, stops),
         }
@@ -285,7 +297,7 @@ fn trace_triangle(soup: &Soup, outline: &Outline, g: u32, axis: usize, stops: &m
         let next = (k + 1) % 3;
         match [k, next].map(|corner| outline.sides[corner].sign) {
             [Sign::Zero, sign] => {
-                stops.push(Stop::corner(&outline.corners[k], axis, [false; 2]));
+                stops.push(Stop::corner(&outline.corners.spots[k], axis, [false; 2]));
                 if sign == Sign::Zero {
                     gap = Gap::Along(code / 2);
                 }
@@ -318,7 +330,7 @@ fn trace(
     let edges = &soup.facet_edges[outline.facet as usize];
     for (i, &edge) in edges.iter().enumerate() {
         let next = soup.next_in_loop(edges, i);
-        let [p, q] = [i, next].map(|corner| &outline.corners[corner]);
+        let [p, q] = [i, next].map(|corner| &outline.corners.spots[corner]);
         match [i, next].map(|corner| outline.sides[corner].sign) {
             [Sign::Zero, Sign::Zero] => {
                 on_line.push((edge / 2, [p.p, q.p]));
@@ -494,6 +506,7 @@ pub(crate) fn segment_direction(geometry: &Geometry, facet: u32, other: u32) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::coplanar::{self, Overlay};
     use crate::soup::Placed;
     use lar_core::{Points, Surface, TriangleMesh};
     use proptest::prelude::*;
@@ -504,8 +517,92 @@ mod tests {
             mesh.points.push(&corner.map(f64::from));
         }
         mesh.triangles = (0..corners.len() as u32 / 3).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
-        let surfaces = [Surface::from_triangles("triangles", &mesh)];
+        soup_of(Surface::from_triangles("triangles", &mesh))
+    }
+
+    /// Faces along the axes on a grid, in all places: parts of a square, and others with notches.
+    fn flat_faces() -> Surface {
+        const SHAPES: [&[[u8; 2]]; 5] = [
+            &[[0, 0], [1, 0], [1, 1], [0, 1]],
+            &[[0, 0], [1, 0], [1, 1]],
+            &[[0, 0], [2, 1], [0, 1]],
+            &[[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]],
+            &[[0, 0], [3, 0], [3, 2], [2, 2], [2, 1], [1, 1], [1, 2], [0, 2]],
+        ];
+        let mut surface = Surface::new("faces", Points::new(3));
+        for (axis, place) in (0..3).flat_map(|axis| (0..16).map(move |place| (axis, place))) {
+            for shape in SHAPES {
+                let first = surface.points.len() as u32;
+                for [u, v] in shape {
+                    let mut at = [0.0; 3];
+                    at[axis] = f64::from(1 + place % 2);
+                    at[(axis + 1) % 3] = f64::from(u + place / 2 % 3);
+                    at[(axis + 2) % 3] = f64::from(v + place / 6);
+                    surface.points.push(&at);
+                }
+                let corners: Vec<u32> = (first..surface.points.len() as u32).collect();
+                surface.push_face([&corners[..]], 1);
+            }
+        }
+        surface
+    }
+
+    /// What two facets have in common, without a look at whether they lie side by side.
+    fn have_contact(soup: &Soup, [f, g]: [u32; 2]) -> bool {
+        let [mut of_f, mut of_g] = [f, g].map(|facet| {
+            let mut outline = Outline::default();
+            outline.read(soup, facet);
+            outline
+        });
+        let mut out = Contacts::default();
+        match of_f.classify(soup, g) {
+            Position::Apart => return false,
+            Position::Coplanar => {
+                let may_overlap = coplanar::meet(soup, [f, g], &mut Overlay::default(), &mut out);
+                // Which is not known of facets with notches.
+                let is_known = [&of_f, &of_g].iter().all(|outline| outline.corners.spots.len() <= 4);
+                return (may_overlap && is_known) || !out.splits.is_empty();
+            }
+            Position::Touching | Position::Across => of_g.classify(soup, f),
+        };
+        let axis = soup.geometry.axis_of_line([f, g]);
+        let traces = [(&of_f, g), (&of_g, f)].map(|(outline, other)| {
+            let (mut stops, mut on_line) = (Vec::new(), Vec::new());
+            trace(soup, outline, other, axis, &mut on_line, &mut stops);
+            stops
+        });
+        overlay(soup, [f, g], axis, &traces, &mut out);
+        out.crossing_pairs > 0
+            || !(out.splits.is_empty() && out.segments.is_empty() && out.touches.is_empty())
+    }
+
+    /// Whether all pairs of facets that lie side by side have no contact, and how many there are of those whose boxes meet.
+    fn pairs_beside(soup: &Soup) -> (usize, usize) {
+        let n = soup.n_facets() as u32;
+        let (mut n_beside, mut n_others) = (0, 0);
+        for [f, g] in (0..n).flat_map(|f| (0..n).map(move |g| [f, g])).filter(|[f, g]| f != g) {
+            let [mut of_f, mut of_g] = [Outline::default(), Outline::default()];
+            of_f.read(soup, f);
+            of_g.read(soup, g);
+            let is_beside = of_f.corners.are_beside(&of_g.corners);
+            let has_contact = have_contact(soup, [f, g]);
+            assert!(!(is_beside && has_contact), "facets {f} and {g}");
+            if of_f.corners.hull.meets(&of_g.corners.hull) && !has_contact {
+                *if is_beside { &mut n_beside } else { &mut n_others } += 1;
+            }
+        }
+        (n_beside, n_others)
+    }
+
+    fn soup_of(surface: Surface) -> Soup {
+        let surfaces = [surface];
         Soup::new(&surfaces, Placed::snapped(&surfaces, |_, _| 0.0).expect("the points are finite"))
+    }
+
+    #[test]
+    fn facets_that_lie_side_by_side_have_no_contact() {
+        let (n_beside, n_others) = pairs_beside(&soup_of(flat_faces()));
+        assert!(n_beside > 1000 && n_beside > 4 * n_others, "{n_beside} are found, {n_others} are not");
     }
 
     proptest! {
@@ -526,6 +623,13 @@ mod tests {
                 let key = |stops: &[Stop]| stops.iter().map(|stop| (stop.site, stop.gap)).collect::<Vec<_>>();
                 prop_assert_eq!(key(&found), key(&expected));
             }
+        }
+
+        #[test]
+        fn triangles_that_lie_side_by_side_have_no_contact(
+            corners in prop::collection::vec(prop::array::uniform3(0u8..4), 24)
+        ) {
+            pairs_beside(&soup(&corners));
         }
     }
 }

@@ -4,6 +4,7 @@ mod apart;
 mod arrangement;
 mod assemble;
 mod beams;
+mod beside;
 mod boolean;
 mod boxes;
 mod canonical;
