@@ -45,7 +45,7 @@ struct Search<'a> {
     input: &'a Input<'a>,
     /// The facets of polygon p, which follow each other, are `first_facet[p]..first_facet[p + 1]`.
     first_facet: Vec<u32>,
-    /// The polygons that lie nearly in one plane with each polygon.
+    /// The polygons that lie nearly in one plane with each polygon, in any order and some more than once.
     neighbours: Cells,
 }
 
@@ -55,10 +55,7 @@ pub(super) fn clusters(input: &Input, scan: &Scan) -> Vec<Cluster> {
         return Vec::new();
     }
     let polygon = |f: u32| input.soup.facet_polygon[f as usize];
-    let mut adjacent: Vec<[u32; 2]> = scan.coplanar.iter().map(|pair| pair.map(polygon)).collect();
-    adjacent.iter_mut().for_each(|pair| pair.sort_unstable());
-    adjacent.sort_unstable();
-    adjacent.dedup();
+    let adjacent: Vec<[u32; 2]> = scan.coplanar.iter().map(|pair| pair.map(polygon)).collect();
     let n_polygons = input.soup.polygon_flat.len();
     let first_facet = offsets(n_polygons, input.soup.facet_polygon.iter().copied());
     let search = Search { input, first_facet, neighbours: partners(n_polygons, &adjacent) };
@@ -186,7 +183,9 @@ impl Search<'_> {
         };
         let (mut n_fitted, mut next) = (1, 0);
         while next < members.len() {
-            for &polygon in &self.neighbours[members[next] as usize] {
+            let mut around = self.neighbours[members[next] as usize].to_vec();
+            around.sort_unstable();
+            for polygon in around {
                 if free.contains_key(&polygon) && seen.insert(polygon) && lies_near(&fit, polygon) {
                     members.push(polygon);
                 }
