@@ -83,10 +83,15 @@ impl Columns {
 
     fn append(&mut self, other: &Self) {
         let base = self.edges.len() as u32;
-        let (offsets, edges, signs) = (&other.offsets[1..], &other.edges, &other.signs);
-        parallel::extend_light(&mut self.offsets, offsets.len(), |i| base + offsets[i]);
-        parallel::extend_light(&mut self.edges, edges.len(), |i| edges[i]);
-        parallel::extend_light(&mut self.signs, signs.len(), |i| signs[i]);
+        let Self { offsets, edges, signs } = self;
+        // As it is, that takes a fraction of what giving items to threads one by one does.
+        parallel::join(
+            || edges.extend_from_slice(&other.edges),
+            || {
+                offsets.extend(other.offsets[1..].iter().map(|offset| base + offset));
+                signs.extend_from_slice(&other.signs);
+            },
+        );
     }
 }
 

@@ -440,11 +440,15 @@ impl Facets {
     fn push_triangles(&mut self, n: usize, geometry: &Geometry, first_polygon: u32) {
         let begin = self.n_half_edges();
         u32::try_from(begin as usize + 3 * n).expect("fewer than 2^32 half-edges");
-        parallel::extend_light(&mut self.offsets, n, |i| begin + 3 * (i as u32 + 1));
         if let Some(ends) = &mut self.ends {
             push_ends(ends, &geometry.bases()[self.polygon.len()..]);
         }
-        parallel::extend_light(&mut self.polygon, n, |i| first_polygon + i as u32);
+        let n = n as u32;
+        let (offsets, polygon) = (&mut self.offsets, &mut self.polygon);
+        parallel::join(
+            || offsets.extend((1..=n).map(|i| begin + 3 * i)),
+            || polygon.extend(first_polygon..first_polygon + n),
+        );
     }
 
     /// Adds a facet, which the geometry has or is given next, and returns its half-edges.

@@ -38,7 +38,7 @@ impl UnionFind {
             let mut part = Part { parent: &mut parent, begin: range.start as u32 };
             let mut across = Vec::new();
             for (x, y) in pairs(parallel::part_of(n_lists, i)) {
-                if range.contains(&(x as usize)) && range.contains(&(y as usize)) {
+                if part.has(x) & part.has(y) {
                     part.union(x, y);
                 } else {
                     across.push((x, y));
@@ -103,6 +103,10 @@ struct Part<'a> {
 }
 
 impl Part<'_> {
+    fn has(&self, x: u32) -> bool {
+        (x.wrapping_sub(self.begin) as usize) < self.parent.len()
+    }
+
     fn at(&mut self, x: u32) -> &mut u32 {
         &mut self.parent[(x - self.begin) as usize]
     }

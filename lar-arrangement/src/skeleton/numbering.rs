@@ -159,7 +159,7 @@ impl<'a> Numbering<'a> {
         })
         .into_iter();
         let mut edges = parts.next().expect("there is a thread");
-        parts.for_each(|part| parallel::extend_light(&mut edges, part.len(), |i| part[i]));
+        parts.for_each(|part| edges.extend(part));
         edges
     }
 
