@@ -147,8 +147,11 @@ def main():
     results = directory / "space.json"
     rows = json.loads(results.read_text()) if results.exists() and options.only != WORKLOADS else {}
     for workload in options.only:
-        rows[workload] = comparison.measured(workload)
-        check(workload, rows[workload])
+        row = comparison.measured(workload)
+        check(workload, row)
+        # Turns of a run before stay until there are others.
+        turns = {what: result for what, result in rows.get(workload, {}).items() if what == "by turns"}
+        rows[workload] = row | turns
         results.write_text(json.dumps(rows, indent=1))
     rows = {workload: rows[workload] for workload in WORKLOADS if workload in rows}
     for workloads in [*report.families(rows), report.grids(rows)]:
