@@ -14,8 +14,12 @@
 
 use crate::boxes::Aabb;
 use crate::kernel::Spot;
+use crate::polygon::MAX_CORNERS;
 
-/// The corners of a facet, at most 64, and the box around them.
+/// There is a bit for each corner.
+const _: () = assert!(MAX_CORNERS <= u64::BITS as usize);
+
+/// The corners of a facet, at least three, and the box around them.
 pub(crate) struct Corners {
     pub spots: Vec<Spot>,
     pub hull: Aabb,
@@ -83,7 +87,8 @@ fn hull(spots: &[Spot]) -> Aabb {
 /// The same for facets whose boxes meet, without rounded coordinates. Compiled once for triangles and once for all.
 #[inline(always)]
 fn end_beside(facets: [&[Spot]; 2], [mut of_f, mut of_g]: [Aabb; 2]) -> bool {
-    let [mut f, mut g] = facets.map(|spots| Ends { spots, left: u64::MAX >> (64 - spots.len()) });
+    let [mut f, mut g] =
+        facets.map(|spots| Ends { spots, left: u64::MAX >> (u64::BITS as usize - spots.len()) });
     loop {
         let before = [f.left, g.left];
         for k in 0..3 {

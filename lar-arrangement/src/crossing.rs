@@ -547,7 +547,7 @@ mod tests {
         surface
     }
 
-    /// What two facets have in common, without a look at whether they lie side by side.
+    /// Whether two facets have more in common than shared corners and edges, without a look at whether they lie side by side.
     fn have_contact(soup: &Soup, [f, g]: [u32; 2]) -> bool {
         let [mut of_f, mut of_g] = [f, g].map(|facet| {
             let mut outline = Outline::default();

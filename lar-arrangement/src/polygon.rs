@@ -9,7 +9,7 @@ use crate::kernel::{Geometry, Plane, Sign, dominant_axis};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
 /// Polygons with more corners are triangulated even when planar, so that testing a pair of facets has bounded cost.
-const MAX_CORNERS: usize = 64;
+pub(crate) const MAX_CORNERS: usize = 64;
 
 /// What becomes of a polygon.
 #[derive(Debug, PartialEq, Eq)]
