@@ -2,6 +2,7 @@
 
 use crate::arrangement::{Arrangement, SolidInfo};
 use crate::dissolve::Dissolved;
+use crate::fragment::FacetParent;
 use crate::kernel::Vertex;
 use crate::operators::{boundary_1, boundary_2, boundary_3};
 use crate::parallel;
@@ -126,7 +127,10 @@ impl Parents {
     fn new(soup: &Soup, skeleton: &Skeleton, dissolved: &Dissolved) -> Self {
         let n = dissolved.n_faces();
         if dissolved.origins.is_none() && skeleton.has_single_parents() && soup.has_single_parents() {
-            let parent = |face| of_piece(soup, skeleton, face as u32).next().expect("each face has a parent");
+            let parent = |face: usize| {
+                let piece = &skeleton.parents[face];
+                seen_from(piece, soup.only_parent(piece.facet))
+            };
             let offsets = parallel::map_light(n + 1, |face| face as u32);
             return Self { parents: parallel::map_light(n, parent), offsets, crossed: Vec::new() };
         }
@@ -169,10 +173,14 @@ impl Parents {
 
 /// The parents of an old face.
 fn of_piece<'a>(soup: &'a Soup, skeleton: &'a Skeleton, face: u32) -> impl Iterator<Item = Parent> + 'a {
-    skeleton.face_parents(face).iter().flat_map(|facet| {
-        let turn = if facet.same_way { 1 } else { -1 };
-        soup.parents(facet.facet).iter().map(move |p| Parent { sign: p.sign * turn, ..*p })
-    })
+    let pieces = skeleton.face_parents(face).iter();
+    pieces.flat_map(|piece| soup.parents(piece.facet).iter().map(|parent| seen_from(piece, parent)))
+}
+
+/// A parent of the facet that a face is a piece of, as one of the face.
+fn seen_from(piece: &FacetParent, parent: &Parent) -> Parent {
+    let turn = if piece.same_way { 1 } else { -1 };
+    Parent { sign: parent.sign * turn, ..*parent }
 }
 
 fn positions(soup: &Soup, vertices: &[Vertex]) -> Points {

@@ -300,7 +300,10 @@ impl<const D: usize> BoxTree<D> {
         let same = |c: &[u32]| if c.iter().all(|&g| g == c[0]) { c[0] } else { NO_GROUP };
         self.groups = vec![parallel::map_light(self.items.len(), |leaf| group_of(self.items[leaf]))];
         for k in 1..=self.blocks.len() {
-            let level = self.groups[k - 1].chunks(WIDTH).map(same).collect();
+            let below = &self.groups[k - 1];
+            let level = parallel::map_light(below.len().div_ceil(WIDTH), |i| {
+                same(&below[i * WIDTH..below.len().min((i + 1) * WIDTH)])
+            });
             self.groups.push(level);
         }
         self

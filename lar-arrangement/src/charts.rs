@@ -101,10 +101,17 @@ impl Shared {
 
 impl Charts {
     /// Finds them. Corners of one chart that are of no common triangle are farther apart than `distance`, in grid steps.
-    /// O(n log n + b), where the boundaries have b pairs of edges with boxes that meet.
-    pub(crate) fn new(soup: &Soup, distance: f64, course: &Course) -> Result<Self, Cancelled> {
+    /// O(n log n + b), where the boundaries have b pairs of edges with boxes that meet. Some of it keeps one thread busy:
+    /// `beside` is called meanwhile by another.
+    pub(crate) fn new(
+        soup: &Soup,
+        distance: f64,
+        course: &Course,
+        beside: impl FnOnce() + Send,
+    ) -> Result<Self, Cancelled> {
         let n = soup.n_facets();
         if !soup.geometry.is_on_grid() || n < SMALL {
+            beside();
             return Ok(Self::none(n));
         }
         // Points within the distance along both axes are within √2 of it. Differences of coordinates are exact and have 41
@@ -112,9 +119,12 @@ impl Charts {
         // are more than enough.
         let margin = 2.0 * distance + 4.0;
         let [wide, narrow] = LOOKS;
-        match Self::of_looks(soup, wide, margin, n / LARGE, course)? {
+        match Self::of_looks(soup, wide, margin, n / LARGE, course, beside)? {
             Some(charts) => Ok(charts),
-            None => Ok(Self::of_looks(soup, narrow, margin, n, course)?.unwrap_or_else(|| Self::none(n))),
+            None => {
+                let charts = Self::of_looks(soup, narrow, margin, n, course, || ())?;
+                Ok(charts.unwrap_or_else(|| Self::none(n)))
+            }
         }
     }
 
@@ -126,11 +136,17 @@ impl Charts {
         margin: f64,
         most: usize,
         course: &Course,
+        beside: impl FnOnce() + Send,
     ) -> Result<Option<Self>, Cancelled> {
         let looks = looks(soup, share, margin);
-        let regions = Regions::new(soup, &looks);
-        let (mut of_region, charts) = regions.candidates();
-        let boundaries = regions.boundaries(soup, &of_region, charts.len());
+        let alike = Regions::sets(soup, &looks);
+        let candidates = || {
+            let regions = Regions::new(soup, &looks, alike);
+            let (of_region, charts) = regions.candidates();
+            let boundaries = regions.boundaries(soup, &of_region, charts.len());
+            (regions, of_region, charts, boundaries)
+        };
+        let ((regions, mut of_region, charts, boundaries), ()) = parallel::join(candidates, beside);
         let (quiet, is_given_up) = (course.quiet(), AtomicBool::new(false));
         let holds = course.map(charts.len(), |i| {
             let Chart { look, size } = charts[i];
@@ -150,11 +166,12 @@ impl Charts {
             }
         }
         let of_region: Vec<Shared> = of_region.into_iter().map(Shared::new).collect();
-        let between = regions.between(soup, &of_region);
-        let region = regions.of_facet;
-        let without =
-            parallel::select(soup.n_facets(), |f| of_region[region[f as usize] as usize].is_nothing());
-        Ok(Some(Self { region, of_region, without, between }))
+        let region_of = |f: u32| regions.of_facet[f as usize] as usize;
+        let (between, without) = parallel::join(
+            || regions.between(soup, &of_region),
+            || parallel::select(soup.n_facets(), |f| of_region[region_of(f)].is_nothing()),
+        );
+        Ok(Some(Self { region: regions.of_facet, of_region, without, between }))
     }
 
     /// No chart.
@@ -255,13 +272,19 @@ impl Border {
 }
 
 impl Regions {
-    fn new(soup: &Soup, looks: &[u8]) -> Self {
+    /// The facets that look the same ways and are joined by edges.
+    fn sets(soup: &Soup, looks: &[u8]) -> UnionFind {
         let users = &soup.facets_of_edge;
         let look_alike = |&(f, g): &(u32, u32)| {
             f < MANY && g < MANY && looks[f as usize] == looks[g as usize] && looks[f as usize] != 0
         };
         let joined = |edges: Range<usize>| users[edges].iter().map(|&[f, g]| (f, g)).filter(look_alike);
-        let (of_facet, n) = UnionFind::of_pairs(looks.len(), users.len(), joined).labels();
+        UnionFind::of_pairs(looks.len(), users.len(), joined)
+    }
+
+    fn new(soup: &Soup, looks: &[u8], sets: UnionFind) -> Self {
+        let users = &soup.facets_of_edge;
+        let (of_facet, n) = sets.labels();
         let (mut sizes, mut looks_of) = (vec![0; n as usize], vec![0; n as usize]);
         let mut begin = 0;
         for alike in of_facet.chunk_by(|a, b| a == b) {
@@ -548,7 +571,7 @@ mod tests {
             let placed = Placed::snapped(&surfaces, |_, _| 0.0).expect("the points are finite");
             let soup = Soup::new(&surfaces, placed);
             let course = Course::new(Control::default(), &[]);
-            let charts = Charts::new(&soup, 1.5, &course).expect("nobody cancels");
+            let charts = Charts::new(&soup, 1.5, &course, || ()).expect("nobody cancels");
             let found = (0..soup.n_facets() as u32).filter(|&f| charts.of(f) != NO_GROUP).count();
             assert_eq!(found, expected, "{turned}");
             triangles.iter_mut().for_each(|t| t.reverse());
@@ -596,7 +619,8 @@ mod tests {
     #[test]
     fn charts_of_a_ball_overlap() {
         let soup = ball(4, |_| 1.0);
-        let charts = Charts::new(&soup, 1.5, &Course::new(Control::default(), &[])).expect("nobody cancels");
+        let charts =
+            Charts::new(&soup, 1.5, &Course::new(Control::default(), &[]), || ()).expect("nobody cancels");
         assert!(charts.without.is_empty() && charts.between.is_empty());
         assert!(soup.facets_of_edge.iter().all(|&[f, g]| charts.are_one(f, g)));
         let unit = |f: u32| {
@@ -615,11 +639,12 @@ mod tests {
         for (height, are_narrow, n_without) in [(0.02, true, 0), (0.044, true, 0), (0.058, false, 992)] {
             let soup = ball(4, |i| 1.0 + height * (i * i % 7) as f64 / 7.0);
             let found = |share| {
-                Charts::of_looks(&soup, share, 7.0, soup.n_facets() / LARGE, &course).expect("nobody cancels")
+                Charts::of_looks(&soup, share, 7.0, soup.n_facets() / LARGE, &course, || ())
+                    .expect("nobody cancels")
             };
             assert_eq!(found(LOOKS[0]).is_some(), height < 0.03);
             assert_eq!(found(LOOKS[1]).is_some(), are_narrow);
-            let charts = Charts::new(&soup, 1.5, &course).expect("nobody cancels");
+            let charts = Charts::new(&soup, 1.5, &course, || ()).expect("nobody cancels");
             assert_eq!(charts.without.len(), n_without, "{height}");
         }
     }

@@ -66,6 +66,8 @@ fn sort_by_place<T: Copy>(
 
 /// So many numbers are sorted by their highest bits at a time.
 const CHUNK: usize = 1 << 15;
+/// Fewer are sorted by one thread.
+const WORTH_THREADS: usize = 1 << 13;
 
 /// Sorts distinct numbers of so many bits. Chunks are sorted by the highest bits, then what has these in common is brought
 /// together and sorted further: O(n) when numbers are spread evenly, and all of it in caches. Such a part of the result
@@ -76,13 +78,14 @@ pub(crate) fn sorted_numbers(
     settle: impl Fn(&mut [u64]) + Sync + Send,
 ) -> Vec<u64> {
     let mut sorted = vec![0; numbers.len()];
-    if numbers.len() <= CHUNK {
+    let chunk = CHUNK.min(numbers.len().div_ceil(parallel::n_threads())).max(WORTH_THREADS);
+    if numbers.len() <= chunk {
         sort_below(numbers, bits, &mut sorted);
         settle(&mut sorted);
         return sorted;
     }
     let upper = (numbers.len() >> 12).ilog2().min(8);
-    let (n_chunks, range) = parallel::chunks(numbers.len(), CHUNK);
+    let (n_chunks, range) = parallel::chunks(numbers.len(), chunk);
     let chunks = parallel::map(n_chunks, |chunk| {
         sorted_by_place(1 << upper, &numbers[range(chunk)], |x| (x >> (bits - upper)) as usize)
     });
@@ -124,6 +127,7 @@ fn sort_below(numbers: &[u64], bits: u32, sorted: &mut [u64]) {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+    use std::num::NonZeroUsize;
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(16))]
@@ -133,7 +137,11 @@ mod tests {
             let numbers: Vec<u64> = (0..n).rev().map(|i| upper[i / 1000] << shift << 20 | i as u64).collect();
             let mut expected = numbers.clone();
             expected.sort_unstable();
-            prop_assert_eq!(sorted_numbers(&numbers, 64, |_| ()), expected);
+            for threads in 1..=3 {
+                let team = parallel::Team::new(NonZeroUsize::new(threads));
+                let sorted = team.work(usize::MAX, || sorted_numbers(&numbers, 64, |_| ()));
+                prop_assert_eq!(sorted.expect("there are threads"), expected.as_slice());
+            }
         }
     }
 }

@@ -227,12 +227,7 @@ impl Voxels {
     /// Whether a facet that begins in a voxel may reach into one that others reach into. O(n).
     fn crowded(&self, marks: &mut [Shared]) -> Vec<bool> {
         let (row, layer) = (self.size[0], self.size[0] * self.size[1]);
-        parallel::each(marks.chunks_mut(layer).collect(), |marks| {
-            for step in [1, row] {
-                let lower = marks.to_vec();
-                join(&mut marks[step..], &lower, Shared::with);
-            }
-        });
+        parallel::each(marks.chunks_mut(layer).collect(), |marks| spread_up(marks, row));
         let layers: Vec<&[Shared]> = marks.chunks(layer).collect();
         // What others reach into: with what begins in the layer below and reaches into it. Then spread back.
         let mut met = vec![false; marks.len()];
@@ -241,14 +236,36 @@ impl Voxels {
             for ((met, &mark), &lower) in met.iter_mut().zip(layers[z]).zip(lower) {
                 *met = mark.with(lower).is_nothing();
             }
-            for step in [1, row] {
-                let upper = met[step..].to_vec();
-                join(met, &upper, |a, b| a | b);
-            }
+            spread_down(met, row);
         });
-        let upper = met[layer..].to_vec();
-        join(&mut met, &upper, |a, b| a | b);
+        for z in 1..layers.len() {
+            let (lower, upper) = met[(z - 1) * layer..].split_at_mut(layer);
+            join(lower, upper, |a, b| a | b);
+        }
         met
+    }
+}
+
+/// Joins the mark of each voxel in a layer with those of its lower neighbours.
+fn spread_up(layer: &mut [Shared], row: usize) {
+    let mut joined = vec![Shared::default(); row];
+    for begin in (0..layer.len()).step_by(row).rev() {
+        let (lower, own) = layer.split_at_mut(begin);
+        let own = &mut own[..row];
+        join(own, &lower[begin.saturating_sub(row)..], Shared::with);
+        joined.copy_from_slice(own);
+        join(&mut own[1..], &joined, Shared::with);
+    }
+}
+
+/// Joins the mark of each voxel in a layer with those of its upper neighbours.
+fn spread_down(layer: &mut [bool], row: usize) {
+    let mut joined = vec![false; row];
+    for begin in (0..layer.len()).step_by(row) {
+        let (own, upper) = layer[begin..].split_at_mut(row);
+        join(own, upper, |a, b| a | b);
+        joined.copy_from_slice(own);
+        join(own, &joined[1..], |a, b| a | b);
     }
 }
 
@@ -270,7 +287,7 @@ mod tests {
     fn check(surfaces: &[Surface], reach: f64, expected: bool) {
         let soup = Soup::new(surfaces, Placed::snapped(surfaces, |_, _| 0.0).expect("the points are finite"));
         let course = Course::new(Control::default(), &[]);
-        let charts = Charts::new(&soup, 1.5, &course).expect("nobody cancels");
+        let charts = Charts::new(&soup, 1.5, &course, || ()).expect("nobody cancels");
         let boxes: Vec<Aabb> = (0..soup.n_facets() as u32).map(|f| box_of(&soup, f).larger(reach)).collect();
         let all = boxes.iter().fold(Aabb::EMPTY, |all, b| all.joined(b));
         let crowded = facets(&soup, &charts, || Voxels::new(&soup, &all, reach));

@@ -31,12 +31,10 @@ impl Meeting {
     pub(crate) fn new(soup: &Soup, distance: f64, reach: f64, course: &Course) -> Result<Self, Cancelled> {
         let all = hull(soup).larger(reach);
         let voxels = || Voxels::new(soup, &all, reach);
-        // Some of what finds charts keeps one thread busy. It is not known yet whether voxels are needed, but mostly they are.
-        let (charts, ahead) = parallel::join(
-            || Charts::new(soup, distance, course),
-            || (soup.n_facets() >= crowds::MANY && parallel::n_threads() > 1).then(voxels),
-        );
-        let charts = charts?;
+        // It is not known yet whether voxels are needed, but mostly they are, and another thread has nothing else to do.
+        let mut ahead = None;
+        let look_ahead = soup.n_facets() >= crowds::MANY && parallel::n_threads() > 1;
+        let charts = Charts::new(soup, distance, course, || ahead = look_ahead.then(voxels))?;
         let stars = Stars::new(soup, &charts, distance);
         let is_open = |[f, g]: [u32; 2], sizes: [f32; 2]| {
             !charts.are_one(f, g)

@@ -40,6 +40,46 @@ pub struct Parent {
     pub sign: i8,
 }
 
+/// The parents of all polygons.
+#[derive(Debug)]
+struct Parents {
+    list: Vec<Parent>,
+    /// Those of polygon p are `offsets[p]..offsets[p + 1]` of the list; empty when each has one, in its place.
+    offsets: Vec<u32>,
+}
+
+impl Parents {
+    /// From the first of each polygon, and others with their polygons.
+    fn new(firsts: Vec<Parent>, others: Vec<(u32, Parent)>) -> Self {
+        if others.is_empty() {
+            return Self { list: firsts, offsets: Vec::new() };
+        }
+        let n_polygons = firsts.len();
+        Self::by_polygon(n_polygons, (0..).zip(firsts).chain(others).collect())
+    }
+
+    /// From all, each with its polygon.
+    fn by_polygon(n_polygons: usize, mut all: Vec<(u32, Parent)>) -> Self {
+        all.sort_unstable();
+        let offsets = offsets(n_polygons, all.iter().map(|p| p.0));
+        Self { list: all.into_iter().map(|p| p.1).collect(), offsets }
+    }
+
+    /// Those of a polygon, ascending.
+    fn of(&self, polygon: u32) -> &[Parent] {
+        let p = polygon as usize;
+        if self.are_single() {
+            return std::slice::from_ref(&self.list[p]);
+        }
+        &self.list[self.offsets[p] as usize..self.offsets[p + 1] as usize]
+    }
+
+    /// Whether each polygon has one.
+    fn are_single(&self) -> bool {
+        self.offsets.is_empty()
+    }
+}
+
 /// The vertices of the input in their places.
 #[derive(Debug)]
 pub(crate) struct Placed {
@@ -118,9 +158,7 @@ pub(crate) struct Soup {
     pub facets_of_edge: Vec<[u32; 2]>,
     /// The polygon that each facet is (a piece of).
     pub facet_polygon: Vec<u32>,
-    parents: Vec<Parent>,
-    /// The parents of polygon p are `parent_offsets[p]..parent_offsets[p + 1]`.
-    parent_offsets: Vec<u32>,
+    parents: Parents,
     /// Whether a polygon is planar, exactly or within the tolerance.
     pub polygon_flat: Vec<bool>,
     /// The shared plane that each polygon was meant to lie in, whether or not its corners could be put there; empty when
@@ -157,7 +195,8 @@ impl Soup {
             facets: Facets { offsets: vec![0], ..Facets::default() },
             polygon_flat: Vec::new(),
             polygon_plane: Vec::new(),
-            parents: Vec::new(),
+            first_parents: Vec::new(),
+            other_parents: Vec::new(),
             polygon_ids: FxHashMap::default(),
             degenerate: 0,
             triangulated: 0,
@@ -177,15 +216,12 @@ impl Soup {
         }
         let coefficients_of =
             |surface: &Surface| parallel::map_light(surface.n_faces(), |f| surface.coefficient(f));
-        let Builder { geometry, facets, polygon_flat, polygon_plane, parents, .. } = builder;
-        let Builder { degenerate, triangulated, bend, .. } = builder;
+        let Builder { geometry, facets, polygon_flat, polygon_plane, .. } = builder;
+        let Builder { first_parents, other_parents, degenerate, triangulated, bend, .. } = builder;
         let (edges, directed) = half_edges::edges(geometry.n_points(), facets.half_edges(&geometry));
         let soft = facets.soft_edges(edges.len(), &directed);
         let facet_edges = Cells::from_parts(facets.offsets, directed);
-        let (facets_of_edge, (parents, parent_offsets)) = parallel::join(
-            || half_edges::facets_of_edges(edges.len(), &facet_edges),
-            || by_polygon(polygon_flat.len(), parents),
-        );
+        let facets_of_edge = half_edges::facets_of_edges(edges.len(), &facet_edges);
         let soup = Self {
             geometry,
             grid,
@@ -194,8 +230,7 @@ impl Soup {
             facet_edges,
             facets_of_edge,
             facet_polygon: facets.polygon,
-            parents,
-            parent_offsets,
+            parents: Parents::new(first_parents, other_parents),
             polygon_flat,
             polygon_plane,
             point_ids,
@@ -332,15 +367,20 @@ impl Soup {
         self.polygon_parents(self.facet_polygon[facet as usize])
     }
 
+    /// The parent of a facet, where all polygons have one.
+    pub(crate) fn only_parent(&self, facet: u32) -> &Parent {
+        debug_assert!(self.has_single_parents());
+        &self.parents.list[self.facet_polygon[facet as usize] as usize]
+    }
+
     /// Whether all polygons have one parent.
     pub(crate) fn has_single_parents(&self) -> bool {
-        self.parents.len() == self.polygon_flat.len()
+        self.parents.are_single()
     }
 
     /// Parents of a polygon.
     pub(crate) fn polygon_parents(&self, polygon: u32) -> &[Parent] {
-        let p = polygon as usize;
-        &self.parents[self.parent_offsets[p] as usize..self.parent_offsets[p + 1] as usize]
+        self.parents.of(polygon)
     }
 }
 
@@ -493,23 +533,16 @@ fn push_ends([tails, heads]: &mut [Vec<u32>; 2], corners: &[[u32; 3]]) {
     heads.extend(corners.iter().flat_map(|&[a, b, c]| [b, c, a]));
 }
 
-/// Parents sorted by polygon, each polygon's in the order of the input, and where each polygon's begin.
-fn by_polygon(n_polygons: usize, mut parents: Vec<(u32, Parent)>) -> (Vec<Parent>, Vec<u32>) {
-    if !parents.is_sorted() {
-        parents.sort_unstable();
-    }
-    let offsets = offsets(n_polygons, parents.iter().map(|p| p.0));
-    (parents.into_iter().map(|p| p.1).collect(), offsets)
-}
-
 struct Builder<'a> {
     geometry: Geometry,
     tolerances: &'a [Tolerance],
     facets: Facets,
     polygon_flat: Vec<bool>,
     polygon_plane: Vec<Option<u32>>,
-    /// Polygon and parent, in the order of the faces.
-    parents: Vec<(u32, Parent)>,
+    /// The face that each polygon was made for.
+    first_parents: Vec<Parent>,
+    /// Faces with the corners of one before, each with its polygon.
+    other_parents: Vec<(u32, Parent)>,
     polygon_ids: FxHashMap<Vec<u32>, (u32, bool)>,
     degenerate: u32,
     triangulated: u32,
@@ -525,7 +558,7 @@ impl Builder<'_> {
         self.facets.offsets.reserve(n);
         self.facets.polygon.reserve(n);
         self.polygon_flat.reserve(n);
-        self.parents.reserve(n);
+        self.first_parents.reserve(n);
     }
 
     /// The faces of a surface of triangles on the grid.
@@ -537,9 +570,9 @@ impl Builder<'_> {
         self.degenerate += (n - n_proper) as u32;
         let polygon = self.polygon_flat.len() as u32;
         self.facets.push_triangles(n_proper, &self.geometry, polygon);
-        parallel::extend_light(&mut self.parents, n_proper, |i| {
+        parallel::extend_light(&mut self.first_parents, n_proper, |i| {
             let face = proper.as_ref().map_or(i as u32, |faces| faces[i]);
-            (polygon + i as u32, Parent { solid: solid as u32, face, sign: 1 })
+            Parent { solid: solid as u32, face, sign: 1 }
         });
         self.polygon_flat.resize(polygon as usize + n_proper, true);
     }
@@ -565,7 +598,7 @@ impl Builder<'_> {
         }
         self.polygon_flat.push(true);
         self.push_meant_plane();
-        self.push_parent(polygon, solid, face, true);
+        self.first_parents.push(parent_of(solid, face, true));
     }
 
     /// Notes the plane that the newest polygon was meant to lie in.
@@ -591,7 +624,7 @@ impl Builder<'_> {
         }
         let (key, reversed) = (canonical(&loops), is_reversed(&loops[0]));
         if let Some(&(polygon, first_reversed)) = self.polygon_ids.get(&key) {
-            self.push_parent(polygon, solid, face, reversed == first_reversed);
+            self.other_parents.push((polygon, parent_of(solid, face, reversed == first_reversed)));
             return;
         }
         let polygon = self.polygon_flat.len() as u32;
@@ -601,13 +634,8 @@ impl Builder<'_> {
         };
         self.polygon_flat.push(flat);
         self.push_meant_plane();
-        self.push_parent(polygon, solid, face, true);
+        self.first_parents.push(parent_of(solid, face, true));
         self.polygon_ids.insert(key, (polygon, reversed));
-    }
-
-    fn push_parent(&mut self, polygon: u32, solid: usize, face: usize, same_way: bool) {
-        let sign = if same_way { 1 } else { -1 };
-        self.parents.push((polygon, Parent { solid: solid as u32, face: face as u32, sign }));
     }
 
     /// Adds the facets of a polygon, and tells whether it counts as planar; `None` when it has no inside.
@@ -710,6 +738,10 @@ impl Builder<'_> {
         let pushed = self.facets.push(noted.map(|(_, ends)| ends), &self.geometry, polygon);
         self.facets.soft.extend(diagonals.into_iter().map(|i| pushed.start + i));
     }
+}
+
+fn parent_of(solid: usize, face: usize, same_way: bool) -> Parent {
+    Parent { solid: solid as u32, face: face as u32, sign: if same_way { 1 } else { -1 } }
 }
 
 fn ascending([p, q]: [u32; 2]) -> [u32; 2] {

@@ -184,7 +184,11 @@ impl Walls {
         let mut jumps = contributions.map(|(solid, signed)| Jump { solid, signed, odd: signed % 2 != 0 });
         let (first, second) = (jumps.next(), jumps.next());
         if let (Some(only), None) = (first, second) {
-            // As most faces have: the same as one before has, mostly.
+            // As most faces have; mostly it is the same as the last one's.
+            if self.cells.last() == Some(&cells) && self.jumps.last() == Some(&only) && self.has_single_last()
+            {
+                return;
+            }
             return self.push_wall(cells, &[only]);
         }
         let mut all: Vec<Jump> = first.into_iter().chain(second).chain(jumps).collect();
@@ -195,6 +199,11 @@ impl Walls {
             odd: same.iter().fold(false, |odd, j| odd ^ j.odd),
         });
         self.push_wall(cells, &sums.collect::<Vec<_>>());
+    }
+
+    /// Whether the last wall has one jump.
+    fn has_single_last(&self) -> bool {
+        matches!(self.offsets[..], [.., begin, end] if end - begin == 1)
     }
 
     /// Adds a wall, unless one of the last is the same.

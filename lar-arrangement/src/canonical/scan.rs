@@ -3,7 +3,7 @@
 use super::{Input, Tolerance, near};
 use crate::parallel;
 use crate::progress::{Cancelled, Course};
-use crate::vector::{distance, dot, minus, size};
+use crate::vector::{distance, dot, minus};
 
 /// Pairs of facets a chunk of work.
 const PAIRS_A_CHUNK: usize = 1 << 11;
@@ -41,14 +41,14 @@ struct Outline {
 
 impl Scan {
     pub(crate) fn new(input: &Input, course: &Course) -> Result<Self, Cancelled> {
-        let outlines = Outlines::new(input);
-        let is_coplanar = |pair: &[u32; 2]| {
-            let [f, g] = pair.map(|f| outlines.number[f as usize] as usize);
-            let is_across = outlines.outlines[f].is_across(&outlines.outlines[g]);
-            !is_across && are_nearly_coplanar(input, *pair, |f| *outlines.shape(f))
-        };
         let largest = Tolerance::largest(&input.soup.tolerances).planes();
         let of_pairs = || {
+            let outlines = Outlines::new(input);
+            let is_coplanar = |pair: &[u32; 2]| {
+                let [f, g] = pair.map(|f| outlines.number[f as usize] as usize);
+                let is_across = outlines.outlines[f].is_across(&outlines.outlines[g]);
+                !is_across && are_nearly_coplanar(input, *pair, |f| *outlines.shape(f))
+            };
             let (n_chunks, range) = parallel::chunks(input.pairs.len(), PAIRS_A_CHUNK);
             course.map(n_chunks, |chunk| {
                 input.pairs[range(chunk)].iter().copied().filter(is_coplanar).collect::<Vec<_>>()
@@ -122,9 +122,10 @@ fn is_bent(input: &Input, edge: u32, pair: [u32; 2], tolerance: f64) -> bool {
     // Edges are in the order of the first facets that have them: those have been read last.
     let first = pair[0].min(pair[1]);
     let [own, off] = [first, pair[0] ^ pair[1] ^ first].map(to_corner);
-    let s = size(to(q)) + size(own) + size(off);
+    // For the sum s of the three sizes this is at least s²; no root is needed.
+    let square = 3.0 * [to(q), own, off].iter().map(|&v| dot(v, v)).sum::<f64>();
     // Rounding changes the determinant by less than 2^-48 · s³, and s is below 2^44.
-    dot(geometry.normal(first), off).abs() > (4.0 * tolerance + 1.0) * s * s
+    dot(geometry.normal(first), off).abs() > (4.0 * tolerance + 1.0) * square
 }
 
 fn are_nearly_coplanar(input: &Input, [f, g]: [u32; 2], shape: impl Fn(u32) -> Shape) -> bool {

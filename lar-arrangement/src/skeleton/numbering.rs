@@ -122,44 +122,51 @@ impl<'a> Numbering<'a> {
     /// Writes the ends of all edges, with new numbers for the vertices, and notes what became of the input's. O(n).
     pub(super) fn edges(&mut self, new_vertex: impl Fn(u32) -> u32 + Sync + Send) -> Vec<[u32; 2]> {
         let (old, border, added) = (&self.parts.soup.edges, &self.border, &self.added);
-        let n_edges = old.len() + added.len() - border.len();
-        let mut parts = parallel::map_parts(&mut self.whole, |range, whole| {
-            // What is added behind all edges of the input belongs to the last part.
-            let is_before = |edge: u32, end: usize| (edge as usize) < end || end == old.len();
-            let begins = |end: usize| match end {
-                0 => (0, 0),
-                _ => (
-                    border.partition_point(|&edge| is_before(edge, end)),
-                    added.partition_point(|added| is_before(added.at, end)),
-                ),
-            };
-            let (from, to) = (begins(range.start), begins(range.end));
-            let mut border = border[from.0..to.0].iter().peekable();
-            let mut added = added[from.1..to.1].iter().peekable();
-            // The first part gets room for the others.
-            let room = if range.start == 0 { n_edges } else { range.len() + to.1 - from.1 };
-            let mut out: Vec<[u32; 2]> = Vec::with_capacity(room);
-            let first = (range.start + from.1 - from.0) as u32;
-            let mut at = range.start;
+        // What is left out and added before an edge of the input; what is added behind all of these belongs to the last part.
+        let before = |end: usize| {
+            let is_before = |edge: u32| (edge as usize) < end || end == old.len();
+            let n_added = if end == 0 { 0 } else { added.partition_point(|added| is_before(added.at)) };
+            (border.partition_point(|&edge| (edge as usize) < end), n_added)
+        };
+        let part_of = |part: usize| {
+            let range = parallel::part_of(old.len(), part);
+            let (from, to) = (before(range.start), before(range.end));
+            (range, &border[from.0..to.0], &added[from.1..to.1])
+        };
+        let parts: Vec<_> = (0..parallel::n_threads()).map(part_of).collect();
+        let lengths = parts.iter().map(|(range, border, added)| range.len() - border.len() + added.len());
+        let mut edges = parallel::zeros(lengths.clone().sum());
+        let own = parallel::cut(&mut edges, lengths.clone()).into_iter();
+        let own = own.zip(parallel::cut(&mut self.whole, parts.iter().map(|(range, ..)| range.len())));
+        let mut end = 0;
+        let begins = lengths.map(|n| {
+            end += n as u32;
+            end - n as u32
+        });
+        parallel::each(parts.iter().zip(begins).zip(own).collect(), |((part, begin), (edges, whole))| {
+            let (range, border, added) = part;
+            let (mut border, mut added) = (border.iter().peekable(), added.iter().peekable());
+            let (mut at, mut n) = (range.start, 0);
             loop {
                 let next = border.peek().map_or(range.end, |&&edge| edge as usize);
                 let next = added.peek().map_or(next, |added| next.min(added.at as usize));
-                let kept = whole[at - range.start..next - range.start].iter_mut();
-                kept.zip(first + out.len() as u32..).for_each(|(edge, number)| *edge = number);
-                out.extend(old[at..next].iter().map(|ends| ends.map(&new_vertex)));
+                let kept = whole[at - range.start..next - range.start].iter_mut().zip(&old[at..next]);
+                let to = edges[n..].iter_mut().zip(begin + n as u32..);
+                for ((edge, number), (new, ends)) in to.zip(kept) {
+                    (*edge, *new) = (ends.map(&new_vertex), number);
+                }
+                n += next - at;
                 at = next;
                 if let Some(added) = added.next_if(|added| added.at as usize == at) {
-                    out.push(added.ends.map(&new_vertex));
+                    edges[n] = added.ends.map(&new_vertex);
+                    n += 1;
                 } else if border.next().is_some() {
                     at += 1;
                 } else {
-                    return out;
+                    return;
                 }
             }
-        })
-        .into_iter();
-        let mut edges = parts.next().expect("there is a thread");
-        parts.for_each(|part| edges.extend(part));
+        });
         edges
     }
 

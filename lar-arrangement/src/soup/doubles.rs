@@ -1,6 +1,6 @@
 //! Triangles of the input with the same corners are one facet with several parents.
 
-use super::{Parent, Soup};
+use super::{Parent, Parents, Soup};
 use crate::half_edges::{self, MANY, NONE};
 use crate::parallel;
 use crate::split::offsets;
@@ -80,7 +80,7 @@ pub(super) fn dropped(mut soup: Soup, doubles: &[Double]) -> Soup {
     let stays: Vec<bool> = taker.iter().zip(0..).map(|(&(taker, _), p)| taker == p).collect();
     let mut new_polygon = offsets(n_polygons, (0..n_polygons as u32).filter(|&p| stays[p as usize]));
     new_polygon.truncate(n_polygons);
-    let mut parents: Vec<(u32, Parent)> = Vec::with_capacity(soup.parents.len());
+    let mut parents: Vec<(u32, Parent)> = Vec::with_capacity(soup.parents.list.len());
     for (polygon, &(taker, same_way)) in (0..n_polygons as u32).zip(&taker) {
         let sign = if same_way { 1 } else { -1 };
         let of_polygon = soup.polygon_parents(polygon).iter();
@@ -90,7 +90,7 @@ pub(super) fn dropped(mut soup: Soup, doubles: &[Double]) -> Soup {
     soup.polygon_flat = (0..n_polygons).filter(|&p| stays[p]).map(|p| soup.polygon_flat[p]).collect();
     let mut is_staying = stays.iter();
     soup.polygon_plane.retain(|_| *is_staying.next().expect("a plane a polygon, or none at all"));
-    (soup.parents, soup.parent_offsets) = super::by_polygon(soup.polygon_flat.len(), parents);
+    soup.parents = Parents::by_polygon(soup.polygon_flat.len(), parents);
     let mut kept = Cells::with_capacity(soup.n_facets(), soup.facet_edges.indices().len());
     let staying = soup.facet_edges.iter().zip(&is_double).filter(|(_, is_double)| !**is_double);
     staying.for_each(|(edges, _)| kept.push(edges));
