@@ -166,10 +166,12 @@ impl Voxels {
         });
         self.mark(marks, &blocks, |i| charts.all(large[i]));
         let is_crowded = self.crowded(marks);
+        let layer = self.size[0] * self.size[1];
         Some(parallel::select(n, |f| match firsts[f as usize] {
             // There are few.
             LARGE => true,
-            first => is_crowded[first as usize],
+            // Nothing begins in the last layer.
+            first => is_crowded[first as usize] | is_crowded[first as usize + layer],
         }))
     }
 
@@ -224,24 +226,21 @@ impl Voxels {
         }
     }
 
-    /// Whether a facet that begins in a voxel may reach into one that others reach into. O(n).
+    /// Whether a facet that begins in a voxel, or in the one below, may reach into one of the voxel's layer that others reach into.
+    /// O(n).
     fn crowded(&self, marks: &mut [Shared]) -> Vec<bool> {
         let (row, layer) = (self.size[0], self.size[0] * self.size[1]);
         parallel::each(marks.chunks_mut(layer).collect(), |marks| spread_up(marks, row));
         let layers: Vec<&[Shared]> = marks.chunks(layer).collect();
         // What others reach into: with what begins in the layer below and reaches into it. Then spread back.
-        let mut met = vec![false; marks.len()];
-        parallel::each(met.chunks_mut(layer).enumerate().collect(), |(z, met)| {
+        let mut met = parallel::zeros(marks.len());
+        parallel::each(met.chunks_mut(layer).enumerate().collect(), |(z, met): (usize, &mut [bool])| {
             let lower = layers[z.saturating_sub(1)];
             for ((met, &mark), &lower) in met.iter_mut().zip(layers[z]).zip(lower) {
                 *met = mark.with(lower).is_nothing();
             }
             spread_down(met, row);
         });
-        for z in 1..layers.len() {
-            let (lower, upper) = met[(z - 1) * layer..].split_at_mut(layer);
-            join(lower, upper, |a, b| a | b);
-        }
         met
     }
 }

@@ -111,14 +111,18 @@ def by_turns(engines, file, too_large, repetitions=REPETITIONS):
 
 
 def turns(commands, repetitions, limit=LIMIT):
-    """Runs all commands by turns, however long they take: for each what `by_turns` returns."""
+    """Runs all commands by turns, however long they take: for each what `by_turns` returns, and the wall times of all turns."""
     runs = {name: [] for name in commands}
     for _ in range(repetitions):
         for name, command in commands.items():
             runs[name].append(run(command, limit))
     print({name: [r if isinstance(r, str) else f"{r['wall']:.3f}" for r in results] for name, results in runs.items()},
           file=sys.stderr, flush=True)
-    return {name: merged(results) for name, results in runs.items()}
+    return {name: with_walls(merged(results), results) for name, results in runs.items()}
+
+
+def with_walls(result, results):
+    return {**result, "walls": [r["wall"] for r in results]} if isinstance(result, dict) else result
 
 
 def is_short(result, seconds):

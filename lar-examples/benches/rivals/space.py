@@ -23,8 +23,11 @@ import report  # noqa: E402
 
 # Turns on one thread, on two threads.
 REPETITIONS = {1: 5, 2: 3}
-# Turns of what is compared with itself, by threads, by size, by position: of what is short, of what is not.
+# Turns of what is compared with itself, by size, by position: of what is short, of what is not.
 TURNS = {True: 9, False: 3}
+# Turns of one thread, two, and two copies, as a machine may change its speed within seconds: many short ones, at most so many, as
+# long as they take about so many seconds; and how long what is short is repeated within one, at least.
+MOST_TURNS, ALL_TURNS, IN_A_TURN = 25, 100.0, 0.5
 # How long, and how often at most, an operation is repeated in one process: the first one touches all its memory for the
 # first time, and does not count if there is another.
 SECONDS, TIMES = 2.0, 25
@@ -58,8 +61,8 @@ class Comparison:
     def lar(self, threads, *options):
         return self.pinned(threads, *self.operation(threads, *options))
 
-    def operation(self, threads, *options):
-        return [self.ours, "--threads", threads, "--repeat", TIMES, "--seconds", SECONDS, *options, "--json"]
+    def operation(self, threads, *options, seconds=SECONDS):
+        return [self.ours, "--threads", threads, "--repeat", TIMES, "--seconds", seconds, *options, "--json"]
 
     def theirs(self, name, threads, operation):
         if name in RUST:
@@ -82,12 +85,17 @@ class Comparison:
             engines = {"lar": self.lar(threads), **rivals}
             row[f"cells {threads}"] = self.run(engines, workload, "cells", threads)
         if os.cpu_count() > 1 and row["cells 1"]["lar"]["facets"] > report.LARGE:
-            copies = [sys.executable, harness.HERE / "copies.py", 2, *self.operation(1)]
-            commands = {"lar": self.lar(1), "two threads": self.lar(2), "two copies": copies}
-            is_short = row["cells 1"]["lar"]["wall"] < SECONDS
-            commands = {name: [*command, workload] for name, command in commands.items()}
-            row["turns"] = harness.turns(commands, TURNS[is_short])
+            row["turns"] = self.threads(workload, row["cells 1"]["lar"]["wall"])
         return row
+
+    def threads(self, workload, wall):
+        """One thread, two, and two copies of one, by turns; `wall` is about what one thread takes."""
+        seconds = max(IN_A_TURN, 3 * wall) if wall < SECONDS else SECONDS
+        turns = min(MOST_TURNS, max(TURNS[False], int(ALL_TURNS / (3 * max(seconds, wall)))))
+        one, two = self.operation(1, seconds=seconds), self.operation(2, seconds=seconds)
+        copies = [sys.executable, harness.HERE / "copies.py", 2, *one]
+        commands = {"lar": self.pinned(1, *one), "two threads": self.pinned(2, *two), "two copies": copies}
+        return harness.turns({name: [*command, workload] for name, command in commands.items()}, turns)
 
     def by_turns(self, rows, workloads):
         """Workloads by turns, each in memory that its process has touched before: what is compared has met the same minutes."""

@@ -1,6 +1,7 @@
 """The section on space of docs/benchmarks.md."""
 
 import math
+import statistics
 
 import harness
 
@@ -77,24 +78,48 @@ def cells(rows):
 def halved(row, operation):
     """With one thread and with two; by turns, where these were measured."""
     one, two = row[f"{operation} 1"]["lar"], row[f"{operation} 2"]["lar"]
-    if operation == "cells" and "turns" in row:
-        one, two = row["turns"]["lar"], row["turns"]["two threads"]
-    return milliseconds(one, "wall"), milliseconds(two, "wall"), f"{one['wall'] / two['wall']:.2f}"
+    ratio = one["wall"] / two["wall"]
+    if operation == "cells" and has_turns(row):
+        one, two, ratio = row["turns"]["lar"], row["turns"]["two threads"], halving(row)
+    return milliseconds(one, "wall"), milliseconds(two, "wall"), f"{ratio:.2f}"
 
 
-def copies(row):
+def has_turns(row):
+    return "turns" in row and all(times(result) for result in row["turns"].values())
+
+
+def of_turns(row, above, below):
+    """The median, over all turns, of one wall time over another."""
+    return statistics.median(a / b for a, b in zip(row["turns"][above]["walls"], row["turns"][below]["walls"], strict=True))
+
+
+def halving(row):
+    """How many times as fast two threads are as one."""
+    return of_turns(row, "lar", "two threads")
+
+
+def copied(row):
     """How many times as much two processes get done at once as one does alone."""
-    both = row.get("turns", {}).get("two copies")
-    return f"{2 * row['turns']['lar']['wall'] / both['wall']:.2f}" if times(both) else "–"
+    return 2 * of_turns(row, "lar", "two copies")
+
+
+def halving_beside(row):
+    """How many times as fast two threads are as one that has a copy of itself beside it."""
+    return of_turns(row, "two copies", "two threads")
+
+
+def turned(row):
+    if not has_turns(row):
+        return "–", "–", "–"
+    return row["turns"]["lar"]["n"], f"{copied(row):.2f}", f"{halving_beside(row):.2f}"
 
 
 def threads(rows):
     yield from table(
-        ["workload", "cells, 1 thread", "2 threads", "ratio", "turns", "two copies", "Boolean, 1 thread", "2 threads", "ratio",
-         "fastest other, 2 threads", "lar ÷ fastest"],
+        ["workload", "cells, 1 thread", "2 threads", "ratio", "turns", "two copies", "beside a copy", "Boolean, 1 thread",
+         "2 threads", "ratio", "fastest other, 2 threads", "lar ÷ fastest"],
         (
-            [name,
-             *halved(row, "cells"), row["turns"]["lar"]["n"] if "turns" in row else "–", copies(row), *halved(row, "boolean"),
+            [name, *halved(row, "cells"), *turned(row), *halved(row, "boolean"),
              f"{milliseconds(row['boolean 2'][best], 'wall')} ({best})" if best else "–",
              f"{row['boolean 2']['lar']['wall'] / row['boolean 2'][best]['wall']:.2f}" if best else "–"]
             for name, row in rows.items() if "cells 2" in row
@@ -212,11 +237,10 @@ def targets(rows):
             if w in measured:
                 yield per_cell(by_turns(rows[w])) / per_cell(by_turns(rows[GENERAL])), w
 
-    def halves():
+    def halves(ratio):
         for w, row in rows.items():
-            if "turns" in row:
-                one, two = row["turns"]["lar"], row["turns"]["two threads"]
-                yield two["wall"] / one["wall"], f"{w}: {one['wall'] / two['wall']:.2f} times as fast"
+            if has_turns(row):
+                yield 1 / ratio(row), f"{w}: {ratio(row):.2f} times as fast, two copies {copied(row):.2f}"
 
     three = RIVALS[:3]
     spheres = [f"spheres-{s}" for s in GROWTH["spheres"][1:]]
@@ -230,7 +254,8 @@ def targets(rows):
         ("time per triangle, crossing pair and cell: most ÷ least of a family", 1.5, worst(growth())),
         ("memory ÷ (1 kB a triangle + 500 B a solid cell), from 10,000 triangles", 1.0, worst(memory(lambda n: n[3]))),
         ("the same for cells of all dimensions: vertices, edges, faces, solids", 1.0, worst(memory(sum))),
-        ("wall time on two threads ÷ on one, above 100,000 triangles", 1 / 1.7, worst(halves())),
+        ("wall time on two threads ÷ on one, above 100,000 triangles", 1 / 1.7, worst(halves(halving))),
+        ("the same with a copy beside the one thread: both processors at work", 1 / 1.7, worst(halves(halving_beside))),
         ("time per cell of aligned grids in common planes ÷ of 100 random cubes", 2.0, worst(degenerate(ALIGNED))),
         ("the same for grids that were turned, beyond what was asked", 2.0, worst(degenerate(TURNED))),
     ]  # fmt: skip
@@ -283,7 +308,9 @@ cell.
 ### Two threads
 
 Wall time. *Two copies*: how many times as much two processes of one thread each get done at once as one of them alone. More than
-that no two threads can get out of the machine. Where it is told, one thread, two, and the copies ran by turns, so many times.
+that no two threads can get out of the machine: often its processors slow down, or share one, while both work. *Beside a copy*: how
+many times as fast two threads are as one that has a copy of itself beside it, so that both have the processors at the same speed.
+Where these are told, one thread, two, and the copies ran by turns, so many times; ratios are medians over the turns.
 
 {text(threads(rows))}
 
