@@ -301,9 +301,8 @@ impl<const D: usize> BoxTree<D> {
         self.groups = vec![parallel::map_light(self.items.len(), |leaf| group_of(self.items[leaf]))];
         for k in 1..=self.blocks.len() {
             let below = &self.groups[k - 1];
-            let level = parallel::map_light(below.len().div_ceil(WIDTH), |i| {
-                same(&below[i * WIDTH..below.len().min((i + 1) * WIDTH)])
-            });
+            let (n_nodes, range) = parallel::chunks(below.len(), WIDTH);
+            let level = parallel::map_light(n_nodes, |node| same(&below[range(node)]));
             self.groups.push(level);
         }
         self

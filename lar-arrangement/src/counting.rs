@@ -66,7 +66,7 @@ fn sort_by_place<T: Copy>(
 
 /// So many numbers are sorted by their highest bits at a time.
 const CHUNK: usize = 1 << 15;
-/// Fewer are sorted by one thread.
+/// Fewer are sorted by one thread. More have at least one highest bit to be divided by. Not tuned.
 const WORTH_THREADS: usize = 1 << 13;
 
 /// Sorts distinct numbers of so many bits. Chunks are sorted by the highest bits, then what has these in common is brought

@@ -89,7 +89,8 @@ class Comparison:
         return row
 
     def threads(self, workload, wall):
-        """One thread, two, and two copies of one, by turns; `wall` is about what one thread takes."""
+        """One thread, two, and two copies of one, by turns; `wall` is about what one thread takes. A turn has room for three
+        repetitions, of which the first does not count, except of what is long."""
         seconds = max(IN_A_TURN, 3 * wall) if wall < SECONDS else SECONDS
         turns = min(MOST_TURNS, max(TURNS[False], int(ALL_TURNS / (3 * max(seconds, wall)))))
         one, two = self.operation(1, seconds=seconds), self.operation(2, seconds=seconds)
