@@ -213,6 +213,11 @@ impl Arrangement {
             [self.parent_offsets[face.index()] as usize..self.parent_offsets[face.index() + 1] as usize]
     }
 
+    /// Whether each face has one parent.
+    pub(crate) fn has_single_parents(&self) -> bool {
+        self.parents.len() == self.n_faces()
+    }
+
     /// The input faces that a path across a face passes at one point of it: its parents, or those of one of the pieces
     /// that it is merged of. The solids crossed, and how, are the same everywhere in a face.
     #[must_use]

@@ -5,6 +5,7 @@ use crate::arrangement::Arrangement;
 use crate::error::ArrangementError;
 use crate::evaluator::Evaluator;
 use crate::expression::Expression;
+use crate::parallel;
 use crate::progress::{Cancelled, Course};
 use crate::stats::Stats;
 use crate::winding::Closure;
@@ -249,6 +250,17 @@ impl Solid<'_> {
                 _ => None,
             }
         })
+    }
+
+    /// As [`boundary`](Self::boundary), by all threads.
+    pub(crate) fn boundary_faces(&self) -> Vec<(FaceId, i8)> {
+        let cells = &self.arrangement.cells_of_face;
+        let is_inside = |face: u32| cells[face as usize].map(|c| self.inside[c as usize]);
+        let faces = parallel::select(cells.len(), |face| {
+            let [front, back] = is_inside(face);
+            front != back
+        });
+        parallel::map_light(faces.len(), |i| (FaceId(faces[i]), if is_inside(faces[i])[0] { -1 } else { 1 }))
     }
 
     /// Volume; infinite when the exterior is part of it. O(size of the arrangement).

@@ -8,6 +8,7 @@ use crate::boolean::Solid;
 use crate::evaluator::Evaluator;
 use crate::merge::{self, Faces, Merged, Removal};
 use crate::operators::{boundary_1, boundary_2};
+use crate::parallel;
 use crate::progress::{Cancelled, Course, Plan};
 use crate::solid_complex::SolidComplex;
 use crate::soup::Parent;
@@ -16,13 +17,15 @@ use crate::stats::Stats;
 use crate::union_find::UnionFind;
 use crate::wrap;
 use lar_core::{Cells, ChainComplex, FaceId, Points};
+use std::ops::Range;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// The stages of a surface, and their usual shares in the time.
 pub(crate) const PLAN: &Plan =
     &[("surface", 40), ("coplanar faces", 20), ("straight edges", 15), ("loops", 15), ("complex", 10)];
 
-/// Faces or edges a chunk of work.
-const CHUNK: usize = 4096;
+/// Edges looked at by all threads between reports, which come from the caller's.
+const BLOCK: usize = 1 << 16;
 
 /// How much of the arrangement the surface of a solid shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -79,18 +82,23 @@ pub(crate) fn surface(
 
 /// A surface whose vertices are some of the points.
 fn finished(merged: Merged, origins: Origins, points: &Points, vertices: &[u32]) -> SolidComplex {
-    let dim = points.dim();
-    let mut coords = Vec::with_capacity(dim * vertices.len());
-    vertices.iter().for_each(|&v| coords.extend_from_slice(points.point(v as usize)));
-    let tail = |&h: &u32| merged.edges[(h / 2) as usize][(h % 2) as usize];
-    let tails = merged.loops.indices().iter().map(tail).collect();
-    let loops = Cells::from_parts(merged.loops.offsets().to_vec(), tails);
-    let boundary_2 = boundary_2(merged.edges.len(), &merged.loops, &merged.face_loops);
-    let boundary_1 = boundary_1(vertices.len(), merged.edges);
+    let Merged { edges, loops: cycles, face_loops, .. } = merged;
+    let n_edges = edges.len();
+    let others = || {
+        let coords = parallel::map_light(vertices.len(), |v| points.xyz(vertices[v] as usize));
+        let half_edges = cycles.indices();
+        let tail = |h: u32| edges[(h / 2) as usize][(h % 2) as usize];
+        let tails = parallel::map_light(half_edges.len(), |i| tail(half_edges[i]));
+        let loops = Cells::from_parts(cycles.offsets().to_vec(), tails);
+        (Points::from_columns(3, coords.into_flattened()), loops, boundary_1(vertices.len(), edges))
+    };
+    // One thread checks ∂2 in the end, the others have these to do beside it.
+    let (boundary_2, (points, loops, boundary_1)) =
+        parallel::join(|| boundary_2(n_edges, &cycles, &face_loops), others);
     SolidComplex {
-        complex: ChainComplex::new(Points::from_columns(dim, coords), vec![boundary_1, boundary_2]),
+        complex: ChainComplex::new(points, vec![boundary_1, boundary_2]),
         loops,
-        face_loops: merged.face_loops,
+        face_loops,
         parents: origins.parents,
         parent_offsets: origins.parent_offsets,
         normals: origins.normals,
@@ -110,19 +118,20 @@ struct Origins {
 
 impl Origins {
     fn new(surface: &OutwardFaces<'_>, new_face: &[u32], n_new_faces: usize) -> Self {
+        if n_new_faces == surface.faces.len() && surface.solid.arrangement.has_single_parents() {
+            return Self::of_single_faces(surface);
+        }
         let mut parents: Vec<(u32, Parent)> = Vec::with_capacity(surface.faces.len());
         // New faces are numbered as their first pieces come.
         let a = surface.solid.arrangement;
         let mut normals = Vec::with_capacity(n_new_faces);
         let mut pieces = Vec::with_capacity(n_new_faces);
-        for (&(face, sign), &new) in surface.faces.iter().zip(new_face) {
+        for ((&(face, sign), &new), i) in surface.faces.iter().zip(new_face).zip(0..) {
             if normals.len() == new as usize {
-                let normal = a.geometry.normal(a.facet_of_face[face.index()]);
-                normals.push(normal.map(|x| x * f64::from(sign)));
+                normals.push(surface.normal(i));
                 pieces.push((face, sign));
             }
-            let signed = |p: &Parent| (new, Parent { sign: p.sign * sign, ..*p });
-            parents.extend(a.parents(face).iter().map(signed));
+            parents.extend(a.parents(face).iter().map(|p| (new, turned(p, sign))));
         }
         parents.sort_unstable();
         parents.dedup();
@@ -133,6 +142,26 @@ impl Origins {
             normals,
         }
     }
+
+    /// Each face is one of the arrangement with one parent.
+    fn of_single_faces(surface: &OutwardFaces<'_>) -> Self {
+        let (n, a) = (surface.faces.len(), surface.solid.arrangement);
+        let parent = |i: usize| {
+            let (face, sign) = surface.faces[i];
+            turned(&a.parents(face)[0], sign)
+        };
+        Self {
+            parents: parallel::map_light(n, parent),
+            parent_offsets: parallel::map_light(n + 1, |i| i as u32),
+            pieces: surface.faces.clone(),
+            normals: parallel::map_light(n, |i| surface.normal(i)),
+        }
+    }
+}
+
+/// The parent of a face as that of one that looks the same way (+1) or the other.
+fn turned(parent: &Parent, sign: i8) -> Parent {
+    Parent { sign: parent.sign * sign, ..*parent }
 }
 
 /// The boundary faces of a solid with vertices and edges numbered anew, all turned outwards.
@@ -150,36 +179,60 @@ struct OutwardFaces<'a> {
 impl<'a> OutwardFaces<'a> {
     fn new(solid: &'a Solid<'a>, course: &Course) -> Result<Self, Cancelled> {
         let a = solid.arrangement;
-        let faces: Vec<(FaceId, i8)> = solid.boundary().collect();
-        let half_edges = || faces.iter().flat_map(|&(face, _)| a.loop_range(face)).flat_map(|l| &a.loops[l]);
-        let old_edges = compacted(half_edges().map(|h| h / 2), a.n_edges());
+        let faces = solid.boundary_faces();
+        let half_edges = |face: FaceId| a.loop_range(face).flat_map(|l| &a.loops[l]).copied();
+        let old_edges = Compacted::new(a.n_edges(), faces.len(), |i| half_edges(faces[i].0).map(|h| h / 2));
         course.go_on()?;
-        let ends = |e: u32| [a.tail(2 * e), a.tail(2 * e + 1)];
-        let vertices = compacted(old_edges.list.iter().flat_map(|&e| ends(e)), a.n_vertices());
-        let edges: Vec<[u32; 2]> =
-            old_edges.list.iter().map(|&e| ends(e).map(|v| vertices.new[v as usize])).collect();
-        let mut loops = Cells::with_capacity(faces.len(), 3 * faces.len());
+        let ends = |i: usize| [0, 1].map(|end| a.tail(2 * old_edges.list[i] + end));
+        let vertices = Compacted::new(a.n_vertices(), old_edges.list.len(), |i| ends(i).into_iter());
+        let edges = parallel::map_light(old_edges.list.len(), |i| ends(i).map(|v| vertices.place(v)));
+        course.go_on()?;
+        let of_part = |part: usize| {
+            let range = parallel::part_of(faces.len(), part);
+            // The first part gets room for the others.
+            let room = if part == 0 { faces.len() } else { range.len() };
+            let mut loops = Cells::with_capacity(room, 3 * room);
+            let mut ends = Vec::with_capacity(range.len());
+            let mut renamed: Vec<u32> = Vec::new();
+            for &(old, sign) in &faces[range] {
+                for l in a.loop_range(old) {
+                    let new = a.loops[l].iter().map(|h| 2 * old_edges.place(h / 2) + h % 2);
+                    renamed.clear();
+                    if sign > 0 {
+                        renamed.extend(new);
+                    } else {
+                        renamed.extend(new.rev().map(|h| h ^ 1));
+                    }
+                    loops.push(&renamed);
+                }
+                ends.push(loops.len() as u32);
+            }
+            (loops, ends)
+        };
+        let mut loops = Cells::new();
         let mut face_loops = Vec::with_capacity(faces.len() + 1);
         face_loops.push(0);
-        let mut renamed: Vec<u32> = Vec::new();
-        course.walk(faces.len(), CHUNK, |face| {
-            let (old, sign) = faces[face];
-            for l in a.loop_range(old) {
-                let new = a.loops[l].iter().map(|h| 2 * old_edges.new[(h / 2) as usize] + h % 2);
-                renamed.clear();
-                if sign > 0 {
-                    renamed.extend(new);
-                } else {
-                    renamed.extend(new.rev().map(|h| h ^ 1));
-                }
-                loops.push(&renamed);
+        for (part, ends) in parallel::map(parallel::n_threads(), of_part) {
+            let base = loops.len() as u32;
+            face_loops.extend(ends.iter().map(|end| base + end));
+            if base == 0 {
+                loops = part;
+            } else {
+                loops.append(&part);
             }
-            face_loops.push(loops.len() as u32);
-        })?;
+        }
+        course.go_on()?;
         let (offsets, mut around) = wrap::faces_at_edges(edges.len(), &loops, &face_loops);
-        around.iter_mut().for_each(|entry| *entry /= 2);
+        parallel::each_chunk(&mut around, |_, chunk| chunk.iter_mut().for_each(|entry| *entry /= 2));
         let around = Cells::from_parts(offsets, around);
         Ok(Self { solid, faces, vertices: vertices.list, edges, loops, face_loops, around })
+    }
+
+    /// The normal of a face.
+    fn normal(&self, i: usize) -> [f64; 3] {
+        let (face, sign) = self.faces[i];
+        let a = self.solid.arrangement;
+        a.geometry.normal(a.facet_of_face[face.index()]).map(|x| x * f64::from(sign))
     }
 
     /// Whether two faces lie in one plane and look the same way.
@@ -197,15 +250,21 @@ impl<'a> OutwardFaces<'a> {
     /// No edge disappears, each face keeps its number.
     fn all_faces(&self) -> (Vec<bool>, Vec<u32>, usize) {
         let n = self.faces.len();
-        (vec![false; self.edges.len()], (0..n as u32).collect(), n)
+        (vec![false; self.edges.len()], parallel::map_light(n, |i| i as u32), n)
     }
 
     /// Which edges disappear between faces of one plane, and the new number of each face.
     fn merged_faces(&self, course: &Course) -> Result<(Vec<bool>, Vec<u32>, usize), Cancelled> {
-        let mut removed = Vec::with_capacity(self.edges.len());
-        course.walk(self.edges.len(), CHUNK, |edge| {
-            removed.push(matches!(self.around[edge][..], [f, g] if self.in_one_plane(f, g)));
+        let n = self.edges.len();
+        let mut removed = Vec::with_capacity(n);
+        let is_removed = |edge: usize| matches!(self.around[edge][..], [f, g] if self.in_one_plane(f, g));
+        course.walk(n.div_ceil(BLOCK), 1, |block| {
+            let Range { start, end } = block * BLOCK..n.min((block + 1) * BLOCK);
+            parallel::extend_light(&mut removed, end - start, |i| is_removed(start + i));
         })?;
+        if !removed.contains(&true) {
+            return Ok(self.all_faces());
+        }
         let (new_face, n) = self.joined(&removed);
         if merge::keep_folds(&self.loops_of_faces(), &mut removed, &new_face, n) {
             let (new_face, n) = self.joined(&removed);
@@ -215,11 +274,10 @@ impl<'a> OutwardFaces<'a> {
     }
 
     fn joined(&self, removed: &[bool]) -> (Vec<u32>, usize) {
-        let mut sets = UnionFind::new(self.faces.len());
-        for (around, _) in self.around.iter().zip(removed).filter(|(_, removed)| **removed) {
-            sets.union(around[0], around[1]);
-        }
-        let (labels, n) = sets.labels();
+        let pairs = |edges: Range<usize>| {
+            edges.filter(|&edge| removed[edge]).map(|edge| (self.around[edge][0], self.around[edge][1]))
+        };
+        let (labels, n) = UnionFind::of_pairs(self.faces.len(), removed.len(), pairs).labels();
         (labels, n as usize)
     }
 
@@ -259,17 +317,26 @@ impl<'a> OutwardFaces<'a> {
 /// Distinct numbers in ascending order, and the place of each in that list.
 struct Compacted {
     list: Vec<u32>,
-    new: Vec<u32>,
+    places: Vec<AtomicU32>,
 }
 
-fn compacted(used: impl Iterator<Item = u32>, n: usize) -> Compacted {
-    let mut is_used = vec![false; n];
-    used.for_each(|x| is_used[x as usize] = true);
-    let mut new = vec![0; n];
-    let mut list = Vec::new();
-    for x in (0..n).filter(|&x| is_used[x]) {
-        new[x] = list.len() as u32;
-        list.push(x as u32);
+impl Compacted {
+    /// Those below n that some users use. O(n + uses).
+    fn new<I: Iterator<Item = u32>>(
+        n: usize,
+        n_users: usize,
+        used: impl Fn(usize) -> I + Sync + Send,
+    ) -> Self {
+        // Marks at first, the same whoever sets them; then places.
+        let places = parallel::atomic_zeros(n);
+        parallel::for_each(n_users, |user| used(user).for_each(|x| places[x as usize].store(1, Relaxed)));
+        let list = parallel::select(n, |x| places[x as usize].load(Relaxed) != 0);
+        parallel::for_each(list.len(), |i| places[list[i] as usize].store(i as u32, Relaxed));
+        Self { list, places }
     }
-    Compacted { list, new }
+
+    /// The place of a number that is used.
+    fn place(&self, x: u32) -> u32 {
+        self.places[x as usize].load(Relaxed)
+    }
 }
