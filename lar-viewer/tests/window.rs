@@ -71,6 +71,9 @@ fn a_scene_is_shown_as_it_is() {
             s.xdotool("mouseup 1");
         });
     });
+    session.check_changes("moving in one frame, press and all", 20_000, |s| {
+        s.at_once(|s| s.drag(3, [500, 400], [550, 420]));
+    });
     session.check_changes("exploding", 20_000, |s| s.drag(1, [1020, 81], [1050, 81]));
     session.xdotool("mousemove 600 500 key Escape");
     session.check_closes();

@@ -11,27 +11,25 @@ const SAME_PLACE: f32 = 6.0;
 /// A click puts the cursor into a field or out of it, Esc, Enter and Tab take it out. Within a frame clicks come first,
 /// whatever their order, and panels find out in the middle of it where the cursor is; and all clicks of a frame are one, where the
 /// mouse is at the end. On a slow driver much arrives in the time of a frame. So what is typed has a frame to itself, which
-/// ends with a key that moves the cursor, and so have clicks at different places. A drag begins with a frame, as what the mouse
-/// has moved in it counts, and ends in a later one: pressed and released in one frame it would be a click, and what the mouse
-/// moves in the frame that releases it does not count.
+/// ends with a key that moves the cursor, and so have clicks at different places. A drag has a frame between those that press
+/// and release the button: what the mouse moves in either of them does not count.
 pub(crate) fn split_off_later(events: &mut Vec<Event>, down: Option<Pos2>) -> Vec<Event> {
     let (mut typed, mut left, mut released) = (false, false, None::<(usize, Pos2)>);
-    let (mut moved, mut pressed) = (false, down.map(|at| (0, at)));
+    let mut pressed = down.map(|at| (0, at));
     let is_drag = |from: Option<(usize, Pos2)>, to: Pos2| from.filter(|(_, at)| SAME_PLACE < at.distance(to));
     for (i, event) in events.iter().enumerate() {
         match event {
             Event::PointerButton { .. } if typed => return events.split_off(i),
             Event::PointerMoved(to) => {
-                if let Some((start, _)) = is_drag(pressed, *to).filter(|_| moved) {
+                if let Some((start, _)) = is_drag(pressed, *to).filter(|(start, _)| 0 < *start) {
                     return events.split_off(start);
                 }
-                moved |= pressed.is_none();
             }
             Event::PointerButton { pos, pressed: false, .. } if 0 < i && is_drag(pressed, *pos).is_some() => {
                 return events.split_off(i);
             }
             Event::PointerButton { pos, pressed: true, .. } => {
-                pressed = Some((i, *pos));
+                pressed = Some((i + 1, *pos));
                 if let Some((end, _)) = released.filter(|(_, at)| SAME_PLACE < at.distance(*pos)) {
                     // With the way to where it is pressed next.
                     return events.split_off(end);
@@ -122,15 +120,15 @@ mod tests {
     }
 
     #[test]
-    fn drags_begin_with_a_frame_and_end_in_another() {
+    fn drags_have_a_frame_between_press_and_release() {
         let [press, _] = click(1.0);
         let [_, release] = click(30.0);
         let way = [Event::PointerMoved(pos2(15.0, 2.0)), Event::PointerMoved(pos2(30.0, 2.0))];
         let start = [Event::PointerMoved(pos2(0.0, 9.0)), Event::PointerMoved(pos2(1.0, 2.0))];
         let [first, second] = way.clone();
         let drag = [[press, first], [second, release]];
-        check(&drag, &[3, 1]);
-        check(&[start, drag[0].clone(), drag[1].clone(), click(30.0)], &[2, 3, 3]);
+        check(&drag, &[1, 2, 1]);
+        check(&[start, drag[0].clone(), drag[1].clone(), click(30.0)], &[3, 2, 3]);
     }
 
     /// A frame may end between press and way.
