@@ -64,15 +64,15 @@ pub(crate) fn assemble(
     let n_edges = edges.len();
     let of_faces = || boundary_2(n_edges, &dissolved.loops, &dissolved.face_loops);
     let of_cells = || boundary_3(&cells_of_face, shells.n_cells as usize);
-    let of_others = || {
+    let of_vertices_and_faces = || {
         let facet_of_face =
             parallel::map_light(n_faces, |face| skeleton.facet(dissolved.old_face(face as u32)));
         let plane_of_face = parallel::map_light(n_faces, |face| soup.plane_class(facet_of_face[face]));
-        let boundary_1 = boundary_1(vertices.len(), edges);
-        (facet_of_face, plane_of_face, boundary_1, positions(&soup, &vertices))
+        (facet_of_face, plane_of_face, positions(&soup, &vertices))
     };
-    // One thread looks through ∂2 at last, and makes ∂3; the others have the rest to do meanwhile.
-    let (more, (facet_of_face, plane_of_face, boundary_1, points)) = match operators {
+    let of_others = || parallel::join(|| boundary_1(vertices.len(), edges), of_vertices_and_faces);
+    // One thread looks through ∂1, and through ∂2 at last, and makes ∂3; the others have the rest to do meanwhile.
+    let (more, (boundary_1, (facet_of_face, plane_of_face, points))) = match operators {
         Operators::Edges => (Vec::new(), of_others()),
         Operators::All => {
             let (two, (three, others)) = parallel::join(of_faces, || (of_cells(), of_others()));

@@ -4,6 +4,7 @@
 //! Nothing is measured: two faces are in one plane when they are pieces of one planar polygon or when their exact
 //! planes are equal; a vertex lies on a straight edge when its two edges lie on the same two planes.
 
+use crate::arrangement::Arrangement;
 use crate::boolean::Solid;
 use crate::evaluator::Evaluator;
 use crate::merge::{self, Faces, Merged, Removal};
@@ -53,22 +54,25 @@ pub(crate) fn surface(
     stats: &mut Stats,
 ) -> Result<SolidComplex, Cancelled> {
     course.begin("surface", stats)?;
-    let surface = OutwardFaces::new(solid, course)?;
+    let mut surface = OutwardFaces::new(solid, course)?;
     course.begin("coplanar faces", stats)?;
-    let (removed, new_face, n_new_faces) = match detail {
+    let joined = match detail {
         Detail::Fragments => surface.all_faces(),
         Detail::Simplified => surface.merged_faces(course)?,
     };
     course.begin("straight edges", stats)?;
-    let straight = match detail {
+    let faces = std::mem::take(&mut surface.faces);
+    let straight = || match detail {
         Detail::Fragments => Default::default(),
-        Detail::Simplified => surface.straight_vertices(&removed, &new_face),
+        Detail::Simplified => surface.straight_vertices(&joined),
     };
+    // One thread looks for these, the others for where faces come from.
+    let (straight, origins) = parallel::join(straight, || Origins::new(solid.arrangement, faces, &joined));
     course.begin("loops", stats)?;
     let points = solid.arrangement.complex().points();
-    let origins = Origins::new(&surface, &new_face, n_new_faces);
-    let (merged, vertices) = if removed.contains(&true) || !straight.is_empty() {
-        let removal = Removal { edges: &removed, new_face: &new_face, n_new_faces, vertices: &straight };
+    let (merged, vertices) = if joined.is_any_removed || !straight.is_empty() {
+        let Joined { removed, new_face, n: n_new_faces, .. } = &joined;
+        let removal = Removal { edges: removed, new_face, n_new_faces: *n_new_faces, vertices: &straight };
         let position = |v: u32| points.xyz(surface.vertices[v as usize] as usize);
         let mut merged = merge::merge(&surface.loops_of_faces(), &removal, position);
         let kept = std::mem::take(&mut merged.vertices);
@@ -117,18 +121,25 @@ struct Origins {
 }
 
 impl Origins {
-    fn new(surface: &OutwardFaces<'_>, new_face: &[u32], n_new_faces: usize) -> Self {
-        if n_new_faces == surface.faces.len() && surface.solid.arrangement.has_single_parents() {
-            return Self::of_single_faces(surface);
+    /// Of faces of an arrangement with their signs, some of which become one.
+    fn new(a: &Arrangement, faces: Vec<(FaceId, i8)>, joined: &Joined) -> Self {
+        let normal = |(face, sign): (FaceId, i8)| {
+            a.geometry.normal(a.facet_of_face[face.index()]).map(|x| x * f64::from(sign))
+        };
+        if joined.n == faces.len() && a.has_single_parents() {
+            let parent = |i: usize| turned(&a.parents(faces[i].0)[0], faces[i].1);
+            return Self {
+                parents: parallel::map_light(faces.len(), parent),
+                parent_offsets: parallel::map_light(faces.len() + 1, |i| i as u32),
+                normals: parallel::map_light(faces.len(), |i| normal(faces[i])),
+                pieces: faces,
+            };
         }
-        let mut parents: Vec<(u32, Parent)> = Vec::with_capacity(surface.faces.len());
+        let mut parents: Vec<(u32, Parent)> = Vec::with_capacity(faces.len());
         // New faces are numbered as their first pieces come.
-        let a = surface.solid.arrangement;
-        let mut normals = Vec::with_capacity(n_new_faces);
-        let mut pieces = Vec::with_capacity(n_new_faces);
-        for ((&(face, sign), &new), i) in surface.faces.iter().zip(new_face).zip(0..) {
-            if normals.len() == new as usize {
-                normals.push(surface.normal(i));
+        let mut pieces = Vec::with_capacity(joined.n);
+        for (&(face, sign), &new) in faces.iter().zip(&joined.new_face) {
+            if pieces.len() == new as usize {
                 pieces.push((face, sign));
             }
             parents.extend(a.parents(face).iter().map(|p| (new, turned(p, sign))));
@@ -136,27 +147,23 @@ impl Origins {
         parents.sort_unstable();
         parents.dedup();
         Self {
-            parent_offsets: offsets(n_new_faces, parents.iter().map(|p| p.0)),
+            parent_offsets: offsets(joined.n, parents.iter().map(|p| p.0)),
             parents: parents.into_iter().map(|p| p.1).collect(),
+            normals: pieces.iter().map(|&piece| normal(piece)).collect(),
             pieces,
-            normals,
         }
     }
+}
 
-    /// Each face is one of the arrangement with one parent.
-    fn of_single_faces(surface: &OutwardFaces<'_>) -> Self {
-        let (n, a) = (surface.faces.len(), surface.solid.arrangement);
-        let parent = |i: usize| {
-            let (face, sign) = surface.faces[i];
-            turned(&a.parents(face)[0], sign)
-        };
-        Self {
-            parents: parallel::map_light(n, parent),
-            parent_offsets: parallel::map_light(n + 1, |i| i as u32),
-            pieces: surface.faces.clone(),
-            normals: parallel::map_light(n, |i| surface.normal(i)),
-        }
-    }
+/// What becomes of the faces of a surface.
+struct Joined {
+    /// Edges that disappear between faces that become one.
+    removed: Vec<bool>,
+    is_any_removed: bool,
+    /// The new number of each face.
+    new_face: Vec<u32>,
+    /// New faces.
+    n: usize,
 }
 
 /// The parent of a face as that of one that looks the same way (+1) or the other.
@@ -214,25 +221,16 @@ impl<'a> OutwardFaces<'a> {
         face_loops.push(0);
         for (part, ends) in parallel::map(parallel::n_threads(), of_part) {
             let base = loops.len() as u32;
-            face_loops.extend(ends.iter().map(|end| base + end));
-            if base == 0 {
-                loops = part;
-            } else {
-                loops.append(&part);
-            }
+            parallel::join(
+                || if base == 0 { loops = part } else { loops.append(&part) },
+                || face_loops.extend(ends.iter().map(|end| base + end)),
+            );
         }
         course.go_on()?;
         let (offsets, mut around) = wrap::faces_at_edges(edges.len(), &loops, &face_loops);
         parallel::each_chunk(&mut around, |_, chunk| chunk.iter_mut().for_each(|entry| *entry /= 2));
         let around = Cells::from_parts(offsets, around);
         Ok(Self { solid, faces, vertices: vertices.list, edges, loops, face_loops, around })
-    }
-
-    /// The normal of a face.
-    fn normal(&self, i: usize) -> [f64; 3] {
-        let (face, sign) = self.faces[i];
-        let a = self.solid.arrangement;
-        a.geometry.normal(a.facet_of_face[face.index()]).map(|x| x * f64::from(sign))
     }
 
     /// Whether two faces lie in one plane and look the same way.
@@ -248,13 +246,18 @@ impl<'a> OutwardFaces<'a> {
     }
 
     /// No edge disappears, each face keeps its number.
-    fn all_faces(&self) -> (Vec<bool>, Vec<u32>, usize) {
-        let n = self.faces.len();
-        (vec![false; self.edges.len()], parallel::map_light(n, |i| i as u32), n)
+    fn all_faces(&self) -> Joined {
+        self.unjoined(vec![false; self.edges.len()])
     }
 
-    /// Which edges disappear between faces of one plane, and the new number of each face.
-    fn merged_faces(&self, course: &Course) -> Result<(Vec<bool>, Vec<u32>, usize), Cancelled> {
+    /// Each face keeps its number, as none of the edges is removed.
+    fn unjoined(&self, removed: Vec<bool>) -> Joined {
+        let n = self.faces.len();
+        Joined { removed, is_any_removed: false, new_face: parallel::map_light(n, |i| i as u32), n }
+    }
+
+    /// Edges disappear between faces of one plane.
+    fn merged_faces(&self, course: &Course) -> Result<Joined, Cancelled> {
         let n = self.edges.len();
         let mut removed = Vec::with_capacity(n);
         let is_removed = |edge: usize| matches!(self.around[edge][..], [f, g] if self.in_one_plane(f, g));
@@ -262,23 +265,22 @@ impl<'a> OutwardFaces<'a> {
             let Range { start, end } = block * BLOCK..n.min((block + 1) * BLOCK);
             parallel::extend_light(&mut removed, end - start, |i| is_removed(start + i));
         })?;
-        if !removed.contains(&true) {
-            return Ok(self.all_faces());
+        if parallel::all(n, |edge| !removed[edge]) {
+            return Ok(self.unjoined(removed));
         }
-        let (new_face, n) = self.joined(&removed);
-        if merge::keep_folds(&self.loops_of_faces(), &mut removed, &new_face, n) {
-            let (new_face, n) = self.joined(&removed);
-            return Ok((removed, new_face, n));
+        let mut joined = self.joined(removed);
+        if merge::keep_folds(&self.loops_of_faces(), &mut joined.removed, &joined.new_face, joined.n) {
+            joined = self.joined(joined.removed);
         }
-        Ok((removed, new_face, n))
+        Ok(joined)
     }
 
-    fn joined(&self, removed: &[bool]) -> (Vec<u32>, usize) {
+    fn joined(&self, removed: Vec<bool>) -> Joined {
         let pairs = |edges: Range<usize>| {
             edges.filter(|&edge| removed[edge]).map(|edge| (self.around[edge][0], self.around[edge][1]))
         };
-        let (labels, n) = UnionFind::of_pairs(self.faces.len(), removed.len(), pairs).labels();
-        (labels, n as usize)
+        let (new_face, n) = UnionFind::of_pairs(self.faces.len(), removed.len(), pairs).labels();
+        Joined { is_any_removed: removed.contains(&true), removed, new_face, n: n as usize }
     }
 
     fn loops_of_faces(&self) -> Faces<'_> {
@@ -286,14 +288,15 @@ impl<'a> OutwardFaces<'a> {
     }
 
     /// Vertices with two remaining edges that have the same two faces of different planes on both sides.
-    fn straight_vertices(&self, removed: &[bool], new_face: &[u32]) -> rustc_hash::FxHashMap<u32, [u32; 2]> {
+    fn straight_vertices(&self, joined: &Joined) -> rustc_hash::FxHashMap<u32, [u32; 2]> {
         let sides = |edge: u32| {
             let mut faces: Vec<u32> =
-                self.around[edge as usize].iter().map(|&f| new_face[f as usize]).collect();
+                self.around[edge as usize].iter().map(|&f| joined.new_face[f as usize]).collect();
             faces.sort_unstable();
             faces
         };
-        let mut candidates = merge::with_two_edges(self.vertices.len(), &self.edges, removed, |_| true);
+        let mut candidates =
+            merge::with_two_edges(self.vertices.len(), &self.edges, &joined.removed, |_| true);
         candidates.retain(|_, [e, f]| {
             let (a, b) = (sides(*e), sides(*f));
             a == b && a.len() >= 2 && a[0] != a[a.len() - 1]
