@@ -106,8 +106,8 @@ pub(crate) fn dissolve(skeleton: &Skeleton, rings: &Cells, soup: &Soup, merge: M
         !bent && faces.iter().any(|&f| !soup.geometry.is_coplanar(facet(faces[0]), facet(f)))
     };
     vertices.retain(|v, [e, f]| {
-        let faces = around(*e);
-        faces == around(*f) && (!is_corner(*v) || is_straight(&faces))
+        let faces = around(e);
+        faces == around(f) && (!is_corner(v) || is_straight(&faces))
     });
     let removal =
         Removal { edges: &removed, new_face: &new_face, n_new_faces: n_faces as usize, vertices: &vertices };

@@ -2,8 +2,12 @@
 //! stage 5b (soft edges) and by the simplification of Boolean results. Combinatorial: the caller decides what
 //! disappears.
 
+use crate::counting;
+use crate::parallel;
 use lar_core::Cells;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxBuildHasher, FxHashMap};
+use std::ops::Range;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Faces by their loops of half-edges, and edges by their ends.
 pub(crate) struct Faces<'a> {
@@ -16,17 +20,13 @@ pub(crate) struct Faces<'a> {
 }
 
 impl Faces<'_> {
-    pub(crate) fn n_faces(&self) -> usize {
-        self.face_loops.len() - 1
-    }
-
     /// First and last vertex of a half-edge.
     pub(crate) fn ends(&self, half_edge: u32) -> [u32; 2] {
         let [a, b] = self.edges[(half_edge / 2) as usize];
         if half_edge.is_multiple_of(2) { [a, b] } else { [b, a] }
     }
 
-    fn loops_of(&self, face: usize) -> std::ops::Range<u32> {
+    fn loops_of(&self, face: usize) -> Range<u32> {
         self.face_loops[face]..self.face_loops[face + 1]
     }
 
@@ -57,36 +57,34 @@ pub(crate) struct Removal<'a> {
     /// New face of each old one.
     pub new_face: &'a [u32],
     pub n_new_faces: usize,
-    /// Vertices with exactly two remaining edges, which become one edge; with these two edges.
-    pub vertices: &'a FxHashMap<u32, [u32; 2]>,
+    /// Vertices with exactly two remaining edges, which become one edge.
+    pub vertices: &'a Passed,
 }
 
 /// Carries the removal out. `positions` are only used to tell a face's outer loop from its holes. O(n) expected.
-pub(crate) fn merge(faces: &Faces, removal: &Removal, positions: impl Fn(u32) -> [f64; 3]) -> Merged {
+pub(crate) fn merge(
+    faces: &Faces,
+    removal: &Removal,
+    positions: impl Fn(u32) -> [f64; 3] + Sync + Send,
+) -> Merged {
     let chains = Chains::new(faces, removal);
-    let mut rejoined = remaining_loops(faces, removal);
+    let old_faces = by_new_face(removal.new_face, removal.n_new_faces);
+    let places = parallel::atomic_zeros(2 * faces.edges.len());
+    let (n_chunks, range) = parallel::chunks(removal.n_new_faces, CHUNK);
+    let parts = parallel::map(n_chunks, |chunk| {
+        let mut loops = NewLoops::default();
+        for new in range(chunk) {
+            loops.push(&old_faces[new], faces, removal, &chains, &places, &positions);
+        }
+        loops
+    });
     let mut loops = Cells::with_capacity(faces.loops.len(), faces.loops.indices().len());
     let mut face_loops = Vec::with_capacity(removal.n_new_faces + 1);
     face_loops.push(0);
-    let mut one_loop = Vec::new();
-    let mut push = |cycle: &[u32]| {
-        let new = cycle.iter().map(|&h| chains.new_half_edge[h as usize]);
-        one_loop.clear();
-        one_loop.extend(new.filter(|&h| h != NONE));
-        loops.push(&one_loop);
-        loops.len() as u32
-    };
-    for old in first_old_faces(removal) {
-        let mut end = face_loops[face_loops.len() - 1];
-        match rejoined.remove(&removal.new_face[old as usize]) {
-            None => faces.loops_of(old as usize).for_each(|l| end = push(&faces.loops[l as usize])),
-            Some(cycles) => {
-                let first = outer_first(&cycles, faces, &positions);
-                let order = first.into_iter().chain((0..cycles.len()).filter(|&i| Some(i) != first));
-                order.for_each(|i| end = push(&cycles[i]));
-            }
-        }
-        face_loops.push(end);
+    for part in parts {
+        let base = loops.len() as u32;
+        loops.append(&part.loops);
+        face_loops.extend(part.ends.iter().map(|end| base + end));
     }
     Merged {
         vertices: chains.vertices,
@@ -97,18 +95,96 @@ pub(crate) fn merge(faces: &Faces, removal: &Removal, positions: impl Fn(u32) ->
     }
 }
 
-/// The first old face of each new one; new faces are numbered in this order.
-fn first_old_faces(removal: &Removal) -> Vec<u32> {
-    let mut first = vec![NONE; removal.n_new_faces];
-    for (&new, old) in removal.new_face.iter().zip(0..) {
-        let first = &mut first[new as usize];
-        *first = (*first).min(old);
+/// The old faces of each new one, ascending.
+fn by_new_face(new_face: &[u32], n_new_faces: usize) -> Cells {
+    let old_faces: Vec<u32> = (0..new_face.len() as u32).collect();
+    let (begins, old_faces) =
+        counting::sorted_by_place(n_new_faces, &old_faces, |&old| new_face[old as usize] as usize);
+    Cells::from_parts(begins, old_faces)
+}
+
+/// New faces a chunk of work.
+const CHUNK: usize = 512;
+
+/// The loops of some new faces.
+#[derive(Default)]
+struct NewLoops {
+    loops: Cells,
+    /// Where those of each face end.
+    ends: Vec<u32>,
+    /// The one at hand.
+    cycle: Vec<u32>,
+}
+
+impl NewLoops {
+    /// The loops of the next new face, which these old ones become.
+    fn push(
+        &mut self,
+        old_faces: &[u32],
+        faces: &Faces,
+        removal: &Removal,
+        chains: &Chains,
+        places: &[AtomicU32],
+        positions: impl Fn(u32) -> [f64; 3],
+    ) {
+        let mut push = |cycle: &[u32]| {
+            let new = cycle.iter().map(|&h| chains.new_half_edge[h as usize]);
+            self.cycle.clear();
+            self.cycle.extend(new.filter(|&h| h != NONE));
+            self.loops.push(&self.cycle);
+        };
+        let half_edges = |old: &u32| faces.half_edges(*old as usize);
+        if old_faces.iter().flat_map(half_edges).any(|h| removal.edges[(h / 2) as usize]) {
+            let cycles = rejoined(old_faces, faces, removal, places);
+            let first = outer_first(&cycles, faces, positions);
+            let order = first.into_iter().chain((0..cycles.len()).filter(|&i| Some(i) != first));
+            order.for_each(|i| push(&cycles[i]));
+        } else {
+            let loops = old_faces.iter().flat_map(|&old| faces.loops_of(old as usize));
+            loops.for_each(|l| push(&faces.loops[l as usize]));
+        }
+        self.ends.push(self.loops.len() as u32);
     }
-    first
 }
 
 /// No half-edge, no face.
 const NONE: u32 = u32::MAX;
+
+/// Vertices between two edges that become one.
+#[derive(Debug, Default)]
+pub(crate) struct Passed {
+    /// The two edges of each such vertex, `NONE` for others; empty without any.
+    edges: Vec<[u32; 2]>,
+}
+
+impl Passed {
+    pub(crate) fn is_empty(&self) -> bool {
+        self.edges.is_empty()
+    }
+
+    fn get(&self, v: u32) -> Option<[u32; 2]> {
+        self.edges.get(v as usize).copied().filter(|edges| edges[0] != NONE)
+    }
+
+    fn contains(&self, v: u32) -> bool {
+        self.get(v).is_some()
+    }
+
+    /// Keeps those for which a condition on the vertex and its edges holds.
+    pub(crate) fn retain(&mut self, mut holds: impl FnMut(u32, [u32; 2]) -> bool) {
+        let mut is_any = false;
+        for (edges, v) in self.edges.iter_mut().zip(0..).filter(|(edges, _)| edges[0] != NONE) {
+            if holds(v, *edges) {
+                is_any = true;
+            } else {
+                *edges = [NONE; 2];
+            }
+        }
+        if !is_any {
+            self.edges.clear();
+        }
+    }
+}
 
 /// The candidates among the vertices with exactly two remaining edges, with these edges. O(edges).
 pub(crate) fn with_two_edges(
@@ -116,7 +192,7 @@ pub(crate) fn with_two_edges(
     edges: &[[u32; 2]],
     removed: &[bool],
     is_candidate: impl Fn(u32) -> bool,
-) -> FxHashMap<u32, [u32; 2]> {
+) -> Passed {
     let remaining =
         || edges.iter().zip(0u32..).zip(removed).filter(|(_, removed)| !**removed).map(|(edge, _)| edge);
     let mut degree = vec![0u32; n_vertices];
@@ -124,89 +200,84 @@ pub(crate) fn with_two_edges(
         ends.iter().for_each(|&v| degree[v as usize] += 1);
     }
     if !degree.contains(&2) {
-        return FxHashMap::default();
+        return Passed::default();
     }
-    let mut found: FxHashMap<u32, [u32; 2]> = FxHashMap::default();
+    let mut found = vec![[NONE; 2]; n_vertices];
     for (ends, edge) in remaining() {
         for &v in ends.iter().filter(|&&v| degree[v as usize] == 2 && is_candidate(v)) {
-            found.entry(v).or_insert([edge; 2])[1] = edge;
+            let found = &mut found[v as usize];
+            found[usize::from(found[0] != NONE)] = edge;
         }
     }
-    found
+    Passed { edges: found }
 }
 
 /// Keeps the edges inside of new faces that would be none: where one remaining half-edge stands in two of the faces
 /// to be joined, their union folds back over itself, and its boundary would count that edge twice; where no edge remains,
 /// the faces close up to a surface, flat but for rounding. Polygons that cross themselves do the former when rounding has
 /// bent them. True when there are such; faces are then to be joined anew.
-/// O(n log n).
+/// O(n).
 pub(crate) fn keep_folds(faces: &Faces, removed: &mut [bool], new_face: &[u32], n_new_faces: usize) -> bool {
-    let mut size = vec![0u32; n_new_faces];
-    new_face.iter().for_each(|&new| size[new as usize] += 1);
-    let mut kept: Vec<(u32, u32)> = Vec::new();
-    for (face, &new) in new_face.iter().enumerate().filter(|(_, new)| size[**new as usize] > 1) {
-        kept.extend(faces.half_edges(face).filter(|h| !removed[(h / 2) as usize]).map(|h| (new, h)));
+    let old_faces = by_new_face(new_face, n_new_faces);
+    let half_edges = |old: u32| faces.half_edges(old as usize);
+    // The last new face that each half-edge was seen in.
+    let mut seen = vec![NONE; 2 * faces.edges.len()];
+    let mut is_any = false;
+    for (old_faces, new) in old_faces.iter().zip(0..).filter(|(old_faces, _)| old_faces.len() > 1) {
+        let (mut remains, mut is_twice) = (false, false);
+        let of_these = || old_faces.iter().flat_map(|&old| half_edges(old));
+        for h in of_these().filter(|h| !removed[(h / 2) as usize]) {
+            remains = true;
+            is_twice |= std::mem::replace(&mut seen[h as usize], new) == new;
+        }
+        if is_twice || !remains {
+            of_these().for_each(|h| removed[(h / 2) as usize] = false);
+            is_any = true;
+        }
     }
-    kept.sort_unstable();
-    let mut folded: Vec<bool> = size.iter().map(|&size| size > 1).collect();
-    kept.iter().for_each(|&(new, _)| folded[new as usize] = false);
-    kept.windows(2).filter(|w| w[0] == w[1]).for_each(|w| folded[w[0].0 as usize] = true);
-    for (face, _) in new_face.iter().enumerate().filter(|(_, new)| folded[**new as usize]) {
-        faces.half_edges(face).for_each(|h| removed[(h / 2) as usize] = false);
-    }
-    folded.contains(&true)
+    is_any
 }
 
-/// The loops, as old half-edges, of each new face that a removed edge bounds or bounded: there the walk goes on along
-/// the loop on its other side.
-fn remaining_loops(faces: &Faces, removal: &Removal) -> FxHashMap<u32, Vec<Vec<u32>>> {
+/// The loops, as old half-edges, of a new face within which edges disappear: there the walk goes on along the loop on
+/// the edge's other side, which is one of these old faces as well. `places` has room for each half-edge. O(n).
+fn rejoined(old_faces: &[u32], faces: &Faces, removal: &Removal, places: &[AtomicU32]) -> Cells {
+    // By places in the list of all half-edges of these faces: what follows on each.
+    let (mut half_edges, mut next) = (Vec::new(), Vec::new());
+    for l in old_faces.iter().flat_map(|&old| faces.loops_of(old as usize)) {
+        let begin = half_edges.len() as u32;
+        half_edges.extend_from_slice(&faces.loops[l as usize]);
+        let end = half_edges.len() as u32;
+        next.extend((begin..end).map(|i| if i + 1 == end { begin } else { i + 1 }));
+    }
+    // Removed half-edges stand in one face only, so no other thread asks for the places of these.
     let is_removed = |h: u32| removal.edges[(h / 2) as usize];
-    let mut touched: FxHashMap<u32, Vec<Vec<u32>>> = FxHashMap::default();
-    for old in (0..faces.n_faces()).filter(|&old| faces.half_edges(old).any(is_removed)) {
-        touched.entry(removal.new_face[old]).or_default();
+    for (&h, i) in half_edges.iter().zip(0..).filter(|&(&h, _)| is_removed(h)) {
+        places[h as usize].store(i, Relaxed);
     }
-    if touched.is_empty() {
-        return touched;
-    }
-    let is_touched = |old: &usize| touched.contains_key(&removal.new_face[*old]);
-    let old_faces: Vec<usize> = (0..faces.n_faces()).filter(is_touched).collect();
-    // By places in the list of all half-edges: what follows on each that was not walked, and where removed ones stand.
-    let half_edges = faces.loops.indices();
-    let mut next: FxHashMap<u32, u32> = FxHashMap::default();
-    let mut at: FxHashMap<u32, u32> = FxHashMap::default();
-    let places = |l: u32| faces.loops.offsets()[l as usize]..faces.loops.offsets()[l as usize + 1];
-    for place in old_faces.iter().flat_map(|&old| faces.loops_of(old)).map(places) {
-        for i in place.clone() {
-            next.insert(i, if i + 1 == place.end { place.start } else { i + 1 });
-            if is_removed(half_edges[i as usize]) {
-                at.insert(half_edges[i as usize], i);
+    let opposite_place = |&h: &u32| if is_removed(h) { places[(h ^ 1) as usize].load(Relaxed) } else { NONE };
+    let opposite: Vec<u32> = half_edges.iter().map(opposite_place).collect();
+    let mut is_walked: Vec<bool> = opposite.iter().map(|&opposite| opposite != NONE).collect();
+    let (mut cycles, mut cycle) = (Cells::new(), Vec::new());
+    for start in 0..half_edges.len() {
+        let mut i = start;
+        while !std::mem::replace(&mut is_walked[i], true) {
+            cycle.push(half_edges[i]);
+            i = next[i] as usize;
+            while opposite[i] != NONE {
+                i = next[opposite[i] as usize] as usize;
             }
         }
-    }
-    for old in old_faces {
-        let cycles = touched.entry(removal.new_face[old]).or_default();
-        for start in faces.loops_of(old).flat_map(places) {
-            let (mut cycle, mut i) = (Vec::new(), start);
-            while !is_removed(half_edges[i as usize])
-                && let Some(mut onward) = next.remove(&i)
-            {
-                cycle.push(half_edges[i as usize]);
-                while is_removed(half_edges[onward as usize]) {
-                    onward = next[&at[&(half_edges[onward as usize] ^ 1)]];
-                }
-                i = onward;
-            }
-            if !cycle.is_empty() {
-                cycles.push(cycle);
-            }
+        if !cycle.is_empty() {
+            cycles.push(&cycle);
+            cycle.clear();
         }
     }
-    touched
+    cycles
 }
 
 /// The outer one of several loops: it reaches farthest in every direction of the plane, so it wins along every
 /// axis on which the loops differ.
-fn outer_first(cycles: &[Vec<u32>], faces: &Faces, positions: impl Fn(u32) -> [f64; 3]) -> Option<usize> {
+fn outer_first(cycles: &Cells, faces: &Faces, positions: impl Fn(u32) -> [f64; 3]) -> Option<usize> {
     if cycles.len() < 2 {
         return (!cycles.is_empty()).then_some(0);
     }
@@ -229,17 +300,17 @@ fn outer_first(cycles: &[Vec<u32>], faces: &Faces, positions: impl Fn(u32) -> [f
     (0..cycles.len()).rev().max_by_key(wins)
 }
 
-/// One new edge: its first old edge, its ends, and the old half-edges from one end to the other when there are more
-/// than that edge.
+/// One new edge: an old edge that is part of it, its ends, and where the old half-edges from one end to the other stand
+/// among all walks, when there are more than that edge.
 struct Chain {
     edge: u32,
     ends: [u32; 2],
-    walk: Vec<u32>,
+    walk: Range<usize>,
 }
 
 impl Chain {
     fn single(half_edge: u32, faces: &Faces) -> Self {
-        Self { edge: half_edge / 2, ends: faces.ends(half_edge), walk: Vec::new() }
+        Self { edge: half_edge / 2, ends: faces.ends(half_edge), walk: 0..0 }
     }
 }
 
@@ -254,11 +325,12 @@ struct Chains {
 
 impl Chains {
     fn new(faces: &Faces, removal: &Removal) -> Self {
-        let passes = |v: &u32| removal.vertices.contains_key(v);
+        let passed = removal.vertices;
         let is_single =
-            |edge: u32| removal.vertices.is_empty() || !faces.edges[edge as usize].iter().any(passes);
+            |edge: u32| passed.is_empty() || !faces.edges[edge as usize].iter().any(|&v| passed.contains(v));
         let mut seen = removal.edges.to_vec();
         let mut chains = Vec::with_capacity(faces.edges.len());
+        let mut walks: Vec<u32> = Vec::new();
         for edge in 0..faces.edges.len() as u32 {
             if seen[edge as usize] {
                 continue;
@@ -267,19 +339,21 @@ impl Chains {
                 chains.push(Chain::single(2 * edge, faces));
                 continue;
             }
-            let walk = chain_through(edge, faces, removal.vertices);
+            let begin = walks.len();
+            walk_through(edge, faces, passed, &mut walks);
+            let walk = &walks[begin..];
             walk.iter().for_each(|&h| seen[(h / 2) as usize] = true);
-            let ends = [faces.ends(walk[0])[0], faces.ends(*walk.last().expect("not empty"))[1]];
+            let ends = [faces.ends(walk[0])[0], faces.ends(walk[walk.len() - 1])[1]];
             chains.push(if walk.len() == 1 {
                 Chain::single(walk[0], faces)
             } else {
-                Chain { edge, ends, walk }
+                Chain { edge, ends, walk: begin..walks.len() }
             });
         }
-        Self::numbered(&without_doubles(chains, faces), faces)
+        Self::numbered(&without_doubles(chains, &walks, faces), &walks, faces)
     }
 
-    fn numbered(chains: &[Chain], faces: &Faces) -> Self {
+    fn numbered(chains: &[Chain], walks: &[u32], faces: &Faces) -> Self {
         let n_vertices = faces.edges.as_flattened().iter().max().map_or(0, |&v| v as usize + 1);
         let mut used = vec![false; n_vertices];
         chains.iter().for_each(|c| c.ends.iter().for_each(|&v| used[v as usize] = true));
@@ -295,7 +369,7 @@ impl Chains {
         for (chain, id) in chains.iter().zip(0..) {
             let [a, b] = chain.ends.map(|v| new_vertex[v as usize]);
             edges.push([a.min(b), a.max(b)]);
-            let in_walk = chain.walk.iter().copied().find(|h| h / 2 == chain.edge);
+            let in_walk = walks[chain.walk.clone()].iter().copied().find(|h| h / 2 == chain.edge);
             let along =
                 in_walk.unwrap_or(2 * chain.edge + u32::from(faces.ends(2 * chain.edge) != chain.ends));
             let forward = if a < b { along } else { along ^ 1 };
@@ -307,47 +381,53 @@ impl Chains {
     }
 }
 
-/// The half-edges of the chain that an edge is part of. A chain that closes on itself stays in single edges.
-fn chain_through(edge: u32, faces: &Faces, passing: &FxHashMap<u32, [u32; 2]>) -> Vec<u32> {
+/// Adds the half-edges of the chain that an edge is part of. A chain that closes on itself stays in single edges.
+fn walk_through(edge: u32, faces: &Faces, passed: &Passed, walks: &mut Vec<u32>) {
     let onward = |h: u32| {
         let head = faces.ends(h)[1];
-        let other = passing.get(&head)?.iter().copied().find(|&e| e != h / 2)?;
+        let other = passed.get(head)?.into_iter().find(|&e| e != h / 2)?;
         Some(2 * other + u32::from(faces.edges[other as usize][0] != head))
     };
-    let mut ahead = vec![2 * edge];
-    while let Some(h) = onward(*ahead.last().expect("not empty")) {
-        if h == ahead[0] {
-            return vec![2 * edge];
-        }
-        ahead.push(h);
-    }
-    let mut behind = Vec::new();
+    let begin = walks.len();
     let mut h = 2 * edge + 1;
     while let Some(back) = onward(h) {
-        behind.push(back ^ 1);
+        if back == 2 * edge + 1 {
+            walks.truncate(begin);
+            walks.push(2 * edge);
+            return;
+        }
+        walks.push(back ^ 1);
         h = back;
     }
-    behind.reverse();
-    behind.extend(ahead);
-    behind
+    walks[begin..].reverse();
+    let mut ahead = Some(2 * edge);
+    while let Some(h) = ahead {
+        walks.push(h);
+        ahead = onward(h);
+    }
 }
 
 /// Chains with the same ends, or with equal ends, would make edges that cannot be told apart: they stay in pieces.
-fn without_doubles(chains: Vec<Chain>, faces: &Faces) -> Vec<Chain> {
+fn without_doubles(chains: Vec<Chain>, walks: &[u32], faces: &Faces) -> Vec<Chain> {
     let key = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
-    let mut count: FxHashMap<[u32; 2], u32> = FxHashMap::default();
-    if chains.iter().all(|c| c.walk.is_empty()) {
+    let n_walks = chains.iter().filter(|c| !c.walk.is_empty()).count();
+    if n_walks == 0 {
         return chains;
     }
-    for chain in &chains {
+    // How many chains have the ends of a walk.
+    let mut count: FxHashMap<[u32; 2], u32> = FxHashMap::with_capacity_and_hasher(n_walks, FxBuildHasher);
+    for chain in chains.iter().filter(|c| !c.walk.is_empty()) {
         *count.entry(key(chain.ends)).or_default() += 1;
+    }
+    for chain in chains.iter().filter(|c| c.walk.is_empty()) {
+        count.entry(key(chain.ends)).and_modify(|count| *count += 1);
     }
     let mut out = Vec::with_capacity(chains.len());
     for chain in chains {
         if chain.walk.is_empty() || (chain.ends[0] != chain.ends[1] && count[&key(chain.ends)] == 1) {
             out.push(chain);
         } else {
-            out.extend(chain.walk.into_iter().map(|h| Chain::single(h, faces)));
+            out.extend(walks[chain.walk].iter().map(|&h| Chain::single(h, faces)));
         }
     }
     out.sort_by_key(|chain| chain.edge);

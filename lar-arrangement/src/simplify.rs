@@ -7,7 +7,7 @@
 use crate::arrangement::Arrangement;
 use crate::boolean::Solid;
 use crate::evaluator::Evaluator;
-use crate::merge::{self, Faces, Merged, Removal};
+use crate::merge::{self, Faces, Merged, Passed, Removal};
 use crate::operators::{boundary_1, boundary_2};
 use crate::parallel;
 use crate::progress::{Cancelled, Course, Plan};
@@ -63,7 +63,7 @@ pub(crate) fn surface(
     course.begin("straight edges", stats)?;
     let faces = std::mem::take(&mut surface.faces);
     let straight = || match detail {
-        Detail::Fragments => Default::default(),
+        Detail::Fragments => Passed::default(),
         Detail::Simplified => surface.straight_vertices(&joined),
     };
     // One thread looks for these, the others for where faces come from.
@@ -288,7 +288,7 @@ impl<'a> OutwardFaces<'a> {
     }
 
     /// Vertices with two remaining edges that have the same two faces of different planes on both sides.
-    fn straight_vertices(&self, joined: &Joined) -> rustc_hash::FxHashMap<u32, [u32; 2]> {
+    fn straight_vertices(&self, joined: &Joined) -> Passed {
         let sides = |edge: u32| {
             let mut faces: Vec<u32> =
                 self.around[edge as usize].iter().map(|&f| joined.new_face[f as usize]).collect();
@@ -298,7 +298,7 @@ impl<'a> OutwardFaces<'a> {
         let mut candidates =
             merge::with_two_edges(self.vertices.len(), &self.edges, &joined.removed, |_| true);
         candidates.retain(|_, [e, f]| {
-            let (a, b) = (sides(*e), sides(*f));
+            let (a, b) = (sides(e), sides(f));
             a == b && a.len() >= 2 && a[0] != a[a.len() - 1]
         });
         candidates

@@ -182,7 +182,7 @@ impl PlanarArrangement {
         let (new_face, n_new_faces) = sets.labels();
         let edges = self.edges();
         let mut straight = merge::with_two_edges(self.n_vertices(), &edges, &removed, |_| true);
-        straight.retain(|_, [e, f]| self.carrier_of[*e as usize] == self.carrier_of[*f as usize]);
+        straight.retain(|_, [e, f]| self.carrier_of[e as usize] == self.carrier_of[f as usize]);
         let view = Faces { edges: &edges, loops: &loops, face_loops: &face_loops };
         let removal = Removal {
             edges: &removed,

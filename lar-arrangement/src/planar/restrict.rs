@@ -7,7 +7,7 @@
 use crate::boolean::FillRule;
 use crate::error::ArrangementError;
 use crate::expression::Expression;
-use crate::merge::{self, Faces, Merged, Removal};
+use crate::merge::{self, Faces, Merged, Passed, Removal};
 use crate::operators::{boundary_1, boundary_2};
 use crate::planar::arranger::{Dangling, Isolated, PlanarArranger};
 use crate::planar::edges::NO_EDGE;
@@ -15,7 +15,6 @@ use crate::planar::input::Drawing;
 use crate::planar::result::PlanarArrangement;
 use crate::union_find::UnionFind;
 use lar_core::{ChainComplex, FaceId, Points, VertexId};
-use rustc_hash::FxHashMap;
 use std::sync::OnceLock;
 
 const SIGMA: &str = "σ";
@@ -84,7 +83,7 @@ impl PlanarArrangement {
         let edges = self.edges();
         let merged = {
             let view = Faces { edges: &edges, loops: &self.loops, face_loops: &self.face_loops };
-            let none = FxHashMap::default();
+            let none = Passed::default();
             let n_new_faces = n_new_faces as usize;
             let removal = Removal { edges: &removed, new_face: &new_face, n_new_faces, vertices: &none };
             let points = self.complex.points();

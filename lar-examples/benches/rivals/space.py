@@ -21,6 +21,8 @@ import harness  # noqa: E402, as its byte code must not land beside it
 sys.path.append(str(harness.HERE / "space"))
 import report  # noqa: E402
 
+# How our bench is told what to do.
+OPERATIONS = {"cells": [], "boolean": ["--boolean"]}
 # Turns on one thread, on two threads.
 REPETITIONS = {1: 5, 2: 3}
 # Turns of what is compared with itself, by size, by position: of what is short, of what is not.
@@ -70,7 +72,7 @@ class Comparison:
         return self.pinned(threads, self.python, harness.HERE / "space" / "engines.py", name, operation, SECONDS)
 
     def measured(self, workload):
-        """For "boolean" and "cells", for one thread and for two: what each library took and gave."""
+        """For each operation, for one thread and for two: what each library took and gave."""
         directory = self.workloads / workload
         if workload not in OURS_ONLY and not directory.exists():
             harness.call(self.ours, "--json", workload, "--write", self.workloads)
@@ -79,21 +81,22 @@ class Comparison:
         row = {}
         for threads in range(1, min(os.cpu_count(), 2) + 1):
             rivals = {name: self.theirs(name, threads, boolean) for name in names}
-            engines = {"lar": self.lar(threads, "--boolean"), **rivals}
+            engines = {"lar": self.lar(threads, *OPERATIONS["boolean"]), **rivals}
             row[f"boolean {threads}"] = self.run(engines, workload, "boolean", threads)
             rivals = {name: self.theirs(name, threads, "cells") for name in names if name == "trueform"}
-            engines = {"lar": self.lar(threads), **rivals}
+            engines = {"lar": self.lar(threads, *OPERATIONS["cells"]), **rivals}
             row[f"cells {threads}"] = self.run(engines, workload, "cells", threads)
         if os.cpu_count() > 1 and row["cells 1"]["lar"]["facets"] > report.LARGE:
-            row["turns"] = self.threads(workload, row["cells 1"]["lar"]["wall"])
+            row["turns"] = {what: self.threads(workload, row, what) for what in OPERATIONS}
         return row
 
-    def threads(self, workload, wall):
-        """One thread, two, and two copies of one, by turns; `wall` is about what one thread takes. A turn has room for three
-        repetitions, of which the first does not count, except of what is long."""
+    def threads(self, workload, row, what):
+        """An operation with one thread, two, and two copies of one, by turns. A turn has room for three repetitions, of which
+        the first does not count, except of what is long."""
+        wall, options = row[f"{what} 1"]["lar"]["wall"], OPERATIONS[what]
         seconds = max(IN_A_TURN, 3 * wall) if wall < SECONDS else SECONDS
         turns = min(MOST_TURNS, max(TURNS[False], int(ALL_TURNS / (3 * max(seconds, wall)))))
-        one, two = self.operation(1, seconds=seconds), self.operation(2, seconds=seconds)
+        one, two = (self.operation(threads, *options, seconds=seconds) for threads in (1, 2))
         copies = [sys.executable, harness.HERE / "copies.py", 2, *one]
         commands = {"lar": self.pinned(1, *one), "two threads": self.pinned(2, *two), "two copies": copies}
         return harness.turns({name: [*command, workload] for name, command in commands.items()}, turns)

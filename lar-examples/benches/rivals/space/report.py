@@ -75,55 +75,53 @@ def cells(rows):
     )  # fmt: skip
 
 
+def turns(row, operation):
+    """One thread, two, and two copies of one, where these were compared by turns."""
+    compared = row.get("turns", {}).get(operation, {})
+    return compared if compared and all(times(result) for result in compared.values()) else None
+
+
+def of_turns(compared, above, below):
+    """The median, over all turns, of one wall time over another."""
+    return statistics.median(a / b for a, b in zip(compared[above]["walls"], compared[below]["walls"], strict=True))
+
+
+def halving(compared):
+    """How many times as fast two threads are as one."""
+    return of_turns(compared, "lar", "two threads")
+
+
+def copied(compared):
+    """How many times as much two processes get done at once as one does alone."""
+    return 2 * of_turns(compared, "lar", "two copies")
+
+
+def halving_beside(compared):
+    """How many times as fast two threads are as one that has a copy of itself beside it."""
+    return of_turns(compared, "two copies", "two threads")
+
+
 def halved(row, operation):
     """With one thread and with two; by turns, where these were measured."""
     one, two = row[f"{operation} 1"]["lar"], row[f"{operation} 2"]["lar"]
-    ratio = one["wall"] / two["wall"]
-    if operation == "cells" and has_turns(row):
-        one, two, ratio = row["turns"]["lar"], row["turns"]["two threads"], halving(row)
-    return milliseconds(one, "wall"), milliseconds(two, "wall"), f"{ratio:.2f}"
+    compared = turns(row, operation)
+    if not compared:
+        return milliseconds(one, "wall"), milliseconds(two, "wall"), f"{one['wall'] / two['wall']:.2f}", "–", "–", "–"
+    one, two = compared["lar"], compared["two threads"]
+    ratios = [f"{ratio(compared):.2f}" for ratio in (halving, copied, halving_beside)]
+    return milliseconds(one, "wall"), milliseconds(two, "wall"), ratios[0], one["n"], *ratios[1:]
 
 
-def has_turns(row):
-    return "turns" in row and all(times(result) for result in row["turns"].values())
-
-
-def of_turns(row, above, below):
-    """The median, over all turns, of one wall time over another."""
-    return statistics.median(a / b for a, b in zip(row["turns"][above]["walls"], row["turns"][below]["walls"], strict=True))
-
-
-def halving(row):
-    """How many times as fast two threads are as one."""
-    return of_turns(row, "lar", "two threads")
-
-
-def copied(row):
-    """How many times as much two processes get done at once as one does alone."""
-    return 2 * of_turns(row, "lar", "two copies")
-
-
-def halving_beside(row):
-    """How many times as fast two threads are as one that has a copy of itself beside it."""
-    return of_turns(row, "two copies", "two threads")
-
-
-def turned(row):
-    if not has_turns(row):
-        return "–", "–", "–"
-    return row["turns"]["lar"]["n"], f"{copied(row):.2f}", f"{halving_beside(row):.2f}"
-
-
-def threads(rows):
+def threads(rows, operation):
     yield from table(
-        ["workload", "cells, 1 thread", "2 threads", "ratio", "turns", "two copies", "beside a copy", "Boolean, 1 thread",
-         "2 threads", "ratio", "fastest other, 2 threads", "lar ÷ fastest"],
+        ["workload", "1 thread", "2 threads", "ratio", "turns", "two copies", "beside a copy", "fastest other, 2 threads",
+         "lar ÷ fastest"],
         (
-            [name, *halved(row, "cells"), *turned(row), *halved(row, "boolean"),
-             f"{milliseconds(row['boolean 2'][best], 'wall')} ({best})" if best else "–",
-             f"{row['boolean 2']['lar']['wall'] / row['boolean 2'][best]['wall']:.2f}" if best else "–"]
-            for name, row in rows.items() if "cells 2" in row
-            for best in [fastest(row["boolean 2"], "wall")]
+            [name, *halved(row, operation), f"{milliseconds(results[best], 'wall')} ({best})" if best else "–",
+             f"{results['lar']['wall'] / results[best]['wall']:.2f}" if best else "–"]
+            for name, row in rows.items() if f"{operation} 2" in row
+            for results in [row[f"{operation} 2"]]
+            for best in [fastest(results, "wall")]
         ),
     )  # fmt: skip
 
@@ -237,10 +235,10 @@ def targets(rows):
             if w in measured:
                 yield per_cell(by_turns(rows[w])) / per_cell(by_turns(rows[GENERAL])), w
 
-    def halves(ratio):
-        for w, row in rows.items():
-            if has_turns(row):
-                yield 1 / ratio(row), f"{w}: {ratio(row):.2f} times as fast, two copies {copied(row):.2f}"
+    def halves(operation, ratio):
+        for w, compared in ((w, turns(row, operation)) for w, row in rows.items()):
+            if compared:
+                yield 1 / ratio(compared), f"{w}: {ratio(compared):.2f} times as fast, two copies {copied(compared):.2f}"
 
     three = RIVALS[:3]
     spheres = [f"spheres-{s}" for s in GROWTH["spheres"][1:]]
@@ -254,8 +252,10 @@ def targets(rows):
         ("time per triangle, crossing pair and cell: most ÷ least of a family", 1.5, worst(growth())),
         ("memory ÷ (1 kB a triangle + 500 B a solid cell), from 10,000 triangles", 1.0, worst(memory(lambda n: n[3]))),
         ("the same for cells of all dimensions: vertices, edges, faces, solids", 1.0, worst(memory(sum))),
-        ("wall time on two threads ÷ on one, above 100,000 triangles", 1 / 1.7, worst(halves(halving))),
-        ("the same with a copy beside the one thread: both processors at work", 1 / 1.7, worst(halves(halving_beside))),
+        ("all cells on two threads ÷ on one, above 100,000 triangles", 1 / 1.7, worst(halves("cells", halving))),
+        ("the same with a copy beside the one thread: both processors at work", 1 / 1.7, worst(halves("cells", halving_beside))),
+        ("a union on two threads ÷ on one, above 100,000 triangles", 1 / 1.7, worst(halves("boolean", halving))),
+        ("the same with a copy beside the one thread", 1 / 1.7, worst(halves("boolean", halving_beside))),
         ("time per cell of aligned grids in common planes ÷ of 100 random cubes", 2.0, worst(degenerate(ALIGNED))),
         ("the same for grids that were turned, beyond what was asked", 2.0, worst(degenerate(TURNED))),
     ]  # fmt: skip
@@ -312,7 +312,13 @@ that no two threads can get out of the machine: often its processors slow down, 
 many times as fast two threads are as one that has a copy of itself beside it, so that both have the processors at the same speed.
 Where these are told, one thread, two, and the copies ran by turns, so many times; ratios are medians over the turns.
 
-{text(threads(rows))}
+All cells:
+
+{text(threads(rows, "cells"))}
+
+One Boolean:
+
+{text(threads(rows, "boolean"))}
 
 ### Growth, memory, exact arithmetic
 
