@@ -433,3 +433,92 @@ fn without_doubles(chains: Vec<Chain>, walks: &[u32], faces: &Faces) -> Vec<Chai
     out.sort_by_key(|chain| chain.edge);
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::union_find::UnionFind;
+
+    /// Merges faces, given by vertices around their loops, over some of their edges and through some of their vertices; the
+    /// loops that remain, by vertices, each from its least.
+    fn merged(polygons: &[&[&[u32]]], over: &[[u32; 2]], through: &[u32]) -> Vec<Vec<Vec<u32>>> {
+        let (mut edges, mut loops, mut face_loops) = (Vec::<[u32; 2]>::new(), Cells::new(), vec![0]);
+        let mut around = Vec::<Vec<u32>>::new();
+        for (polygon, face) in polygons.iter().zip(0..) {
+            for cycle in *polygon {
+                let steps = cycle.iter().zip(cycle.iter().cycle().skip(1));
+                let half_edge = |(&a, &b): (&u32, &u32)| {
+                    let ends = [a.min(b), a.max(b)];
+                    let edge = edges.iter().position(|&e| e == ends).unwrap_or_else(|| {
+                        edges.push(ends);
+                        around.push(Vec::new());
+                        edges.len() - 1
+                    });
+                    around[edge].push(face);
+                    2 * edge as u32 + u32::from(a > b)
+                };
+                loops.push(&steps.map(half_edge).collect::<Vec<_>>());
+            }
+            face_loops.push(loops.len() as u32);
+        }
+        let faces = Faces { edges: &edges, loops: &loops, face_loops: &face_loops };
+        let joined = |removed: &[bool]| {
+            let mut sets = UnionFind::new(polygons.len());
+            let removed = around.iter().zip(removed).filter(|(_, removed)| **removed);
+            for (faces, _) in removed {
+                sets.union(faces[0], faces[1]);
+            }
+            sets.labels()
+        };
+        let mut removed: Vec<bool> = edges.iter().map(|ends| over.contains(ends)).collect();
+        let (mut new_face, mut n) = joined(&removed);
+        if keep_folds(&faces, &mut removed, &new_face, n as usize) {
+            (new_face, n) = joined(&removed);
+        }
+        let n_vertices = edges.as_flattened().iter().max().map_or(0, |&v| v as usize + 1);
+        let passed = with_two_edges(n_vertices, &edges, &removed, |v| through.contains(&v));
+        let (edges, new_face) = (&removed, &new_face);
+        let removal = Removal { edges, new_face, n_new_faces: n as usize, vertices: &passed };
+        // On a parabola, so that the first and the last vertex reach farthest.
+        let merged = merge(&faces, &removal, |v| [f64::from(v), f64::from(v * v), 0.0]);
+        let tail = |&h: &u32| merged.vertices[merged.edges[(h / 2) as usize][(h % 2) as usize] as usize];
+        let vertices = |cycle: u32| {
+            let mut vertices: Vec<u32> = merged.loops[cycle as usize].iter().map(tail).collect();
+            let least = (0..vertices.len()).min_by_key(|&i| vertices[i]).unwrap_or(0);
+            vertices.rotate_left(least);
+            vertices
+        };
+        merged.face_loops.windows(2).map(|w| (w[0]..w[1]).map(vertices).collect()).collect()
+    }
+
+    #[test]
+    fn faces_are_joined_over_edges_that_disappear() {
+        let square: &[&[&[u32]]] = &[&[&[0, 1, 2]], &[&[0, 2, 3]]];
+        assert_eq!(merged(square, &[], &[]), [[[0, 1, 2]], [[0, 2, 3]]]);
+        assert_eq!(merged(square, &[[0, 2]], &[]), [[[0, 1, 2, 3]]]);
+        let with_another: &[&[&[u32]]] = &[&[&[0, 1, 2]], &[&[4, 3, 2]], &[&[0, 2, 3]]];
+        assert_eq!(merged(with_another, &[[0, 2]], &[]), vec![vec![vec![0, 1, 2, 3]], vec![vec![2, 4, 3]]]);
+        // Around 0, and around a hole, which is not the outer loop although it was met first.
+        let fan: &[&[&[u32]]] = &[&[&[0, 1, 2]], &[&[0, 2, 3]], &[&[0, 3, 1]]];
+        assert_eq!(merged(fan, &[[0, 1], [0, 2], [0, 3]], &[]), [[[1, 2, 3]]]);
+        let fold: &[&[&[u32]]] = &[&[&[0, 1, 2, 3]], &[&[0, 2, 1, 3]]];
+        assert_eq!(merged(fold, &[[1, 2]], &[]), merged(fold, &[], &[]), "3 to 0 would stand in it twice");
+        let ring: &[&[&[u32]]] = &[&[&[2, 3, 0, 8]], &[&[3, 4, 9, 0]], &[&[4, 2, 8, 9]]];
+        assert_eq!(merged(ring, &[[0, 3], [4, 9], [2, 8]], &[]), [[vec![0, 8, 9], vec![2, 3, 4]]]);
+        let closed: &[&[&[u32]]] = &[&[&[0, 1, 2]], &[&[0, 2, 1]]];
+        let all = [[0, 1], [1, 2], [0, 2]];
+        assert_eq!(merged(closed, &all, &[]), merged(closed, &[], &[]), "nothing would be left");
+    }
+
+    #[test]
+    fn edges_are_joined_through_vertices_that_disappear() {
+        let pentagon: &[&[&[u32]]] = &[&[&[0, 3, 1, 4, 2]]];
+        assert_eq!(merged(pentagon, &[], &[3, 4]), [[[0, 1, 2]]]);
+        assert_eq!(merged(pentagon, &[], &[2, 4]), [[[0, 3, 1]]], "two in a row");
+        assert_eq!(merged(pentagon, &[], &[2, 3, 4]), merged(pentagon, &[], &[]), "both would join 0 and 1");
+        assert_eq!(merged(pentagon, &[], &[0, 1, 2, 3, 4]), merged(pentagon, &[], &[]), "no end is left");
+        let square: &[&[&[u32]]] = &[&[&[0, 1, 2]], &[&[0, 2, 3]]];
+        assert_eq!(merged(square, &[[0, 2]], &[2]), [[[0, 1, 3]]]);
+        assert_eq!(merged(square, &[], &[1]), merged(square, &[], &[]), "0 and 2 are joined already");
+    }
+}
