@@ -25,8 +25,9 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 pub(crate) const PLAN: &Plan =
     &[("surface", 40), ("coplanar faces", 20), ("straight edges", 15), ("loops", 15), ("complex", 10)];
 
-/// Edges looked at by all threads between reports, which come from the caller's.
-const BLOCK: usize = 1 << 16;
+/// Blocks of edges that all threads look at between reports, which come from the caller's, and edges a block has at least.
+const BLOCKS: usize = 32;
+const LEAST_BLOCK: usize = 1 << 12;
 
 /// How much of the arrangement the surface of a solid shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -261,9 +262,10 @@ impl<'a> OutwardFaces<'a> {
         let n = self.edges.len();
         let mut removed = Vec::with_capacity(n);
         let is_removed = |edge: usize| matches!(self.around[edge][..], [f, g] if self.in_one_plane(f, g));
-        course.walk(n.div_ceil(BLOCK), 1, |block| {
-            let Range { start, end } = block * BLOCK..n.min((block + 1) * BLOCK);
-            parallel::extend_light(&mut removed, end - start, |i| is_removed(start + i));
+        let (n_blocks, range) = parallel::chunks(n, n.div_ceil(BLOCKS).max(LEAST_BLOCK));
+        course.walk(n_blocks, 1, |block| {
+            let edges = range(block);
+            parallel::extend_light(&mut removed, edges.len(), |i| is_removed(edges.start + i));
         })?;
         if parallel::all(n, |edge| !removed[edge]) {
             return Ok(self.unjoined(removed));
