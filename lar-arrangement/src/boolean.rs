@@ -243,24 +243,21 @@ impl Solid<'_> {
 
     /// The faces of its surface: ∂3 · chain. The sign is +1 where the face's normal points out of it. O(faces).
     pub fn boundary(&self) -> impl Iterator<Item = (FaceId, i8)> + '_ {
-        (0..).map(FaceId).zip(&self.arrangement.cells_of_face).filter_map(|(face, cells)| {
-            match cells.map(|c| self.inside[c as usize]) {
-                [false, true] => Some((face, 1)),
-                [true, false] => Some((face, -1)),
-                _ => None,
-            }
-        })
+        let signed = |face: FaceId| (face, self.sign_of(face));
+        (0..self.arrangement.n_faces() as u32).map(FaceId).map(signed).filter(|(_, sign)| *sign != 0)
     }
 
     /// As [`boundary`](Self::boundary), by all threads.
     pub(crate) fn boundary_faces(&self) -> Vec<(FaceId, i8)> {
-        let cells = &self.arrangement.cells_of_face;
-        let is_inside = |face: u32| cells[face as usize].map(|c| self.inside[c as usize]);
-        let faces = parallel::select(cells.len(), |face| {
-            let [front, back] = is_inside(face);
-            front != back
-        });
-        parallel::map_light(faces.len(), |i| (FaceId(faces[i]), if is_inside(faces[i])[0] { -1 } else { 1 }))
+        let faces = parallel::select(self.arrangement.n_faces(), |face| self.sign_of(FaceId(face)) != 0);
+        let signed = |face: FaceId| (face, self.sign_of(face));
+        parallel::map_light(faces.len(), |i| signed(FaceId(faces[i])))
+    }
+
+    /// The coefficient of a face in the boundary.
+    fn sign_of(&self, face: FaceId) -> i8 {
+        let [front, back] = self.arrangement.cells_of_face[face.index()];
+        i8::from(self.inside[back as usize]) - i8::from(self.inside[front as usize])
     }
 
     /// Volume; infinite when the exterior is part of it. O(size of the arrangement).

@@ -28,6 +28,7 @@ mod half_edges;
 mod interner;
 mod kernel;
 mod live;
+mod loops;
 mod marks;
 mod measure;
 mod meeting;

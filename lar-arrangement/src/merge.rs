@@ -3,9 +3,10 @@
 //! disappears.
 
 use crate::counting;
+use crate::loops::LoopsOfFaces;
 use crate::parallel;
 use lar_core::Cells;
-use rustc_hash::{FxBuildHasher, FxHashMap};
+use rustc_hash::{FxBuildHasher, FxHashMap, FxHashSet};
 use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -72,20 +73,20 @@ pub(crate) fn merge(
     let places = parallel::atomic_zeros(2 * faces.edges.len());
     let (n_chunks, range) = parallel::chunks(removal.n_new_faces, CHUNK);
     let parts = parallel::map(n_chunks, |chunk| {
-        let mut loops = NewLoops::default();
-        for new in range(chunk) {
-            loops.push(&old_faces[new], faces, removal, &chains, &places, &positions);
+        // The first part gets room for the others.
+        let [n_faces, n_loops, n_half_edges] = if chunk == 0 {
+            [removal.n_new_faces, faces.loops.len(), faces.loops.indices().len()]
+        } else {
+            [CHUNK; 3]
+        };
+        let loops = LoopsOfFaces::with_room(n_faces, n_loops, n_half_edges);
+        let mut new = NewLoops { loops, cycle: Vec::new() };
+        for face in range(chunk) {
+            new.push(&old_faces[face], faces, removal, &chains, &places, &positions);
         }
-        loops
+        new.loops
     });
-    let mut loops = Cells::with_capacity(faces.loops.len(), faces.loops.indices().len());
-    let mut face_loops = Vec::with_capacity(removal.n_new_faces + 1);
-    face_loops.push(0);
-    for part in parts {
-        let base = loops.len() as u32;
-        loops.append(&part.loops);
-        face_loops.extend(part.ends.iter().map(|end| base + end));
-    }
+    let LoopsOfFaces { loops, face_loops } = LoopsOfFaces::joined(parts);
     Merged {
         vertices: chains.vertices,
         edges: chains.edges,
@@ -107,11 +108,8 @@ fn by_new_face(new_face: &[u32], n_new_faces: usize) -> Cells {
 const CHUNK: usize = 512;
 
 /// The loops of some new faces.
-#[derive(Default)]
 struct NewLoops {
-    loops: Cells,
-    /// Where those of each face end.
-    ends: Vec<u32>,
+    loops: LoopsOfFaces,
     /// The one at hand.
     cycle: Vec<u32>,
 }
@@ -143,7 +141,7 @@ impl NewLoops {
             let loops = old_faces.iter().flat_map(|&old| faces.loops_of(old as usize));
             loops.for_each(|l| push(&faces.loops[l as usize]));
         }
-        self.ends.push(self.loops.len() as u32);
+        self.loops.close();
     }
 }
 
@@ -326,22 +324,30 @@ struct Chains {
 impl Chains {
     fn new(faces: &Faces, removal: &Removal) -> Self {
         let passed = removal.vertices;
-        let is_single =
+        let is_between_others =
             |edge: u32| passed.is_empty() || !faces.edges[edge as usize].iter().any(|&v| passed.contains(v));
         let mut seen = removal.edges.to_vec();
+        // Edges of walks that close, each of which would go around its ring again.
+        let mut of_ring: FxHashSet<u32> = FxHashSet::default();
         let mut chains = Vec::with_capacity(faces.edges.len());
         let mut walks: Vec<u32> = Vec::new();
         for edge in 0..faces.edges.len() as u32 {
             if seen[edge as usize] {
                 continue;
             }
-            if is_single(edge) {
+            if is_between_others(edge) || of_ring.contains(&edge) {
                 chains.push(Chain::single(2 * edge, faces));
                 continue;
             }
             let begin = walks.len();
-            walk_through(edge, faces, passed, &mut walks);
+            let is_closed = walk_through(edge, faces, passed, &mut walks);
             let walk = &walks[begin..];
+            if is_closed {
+                of_ring.extend(walk.iter().map(|h| h / 2));
+                walks.truncate(begin);
+                chains.push(Chain::single(2 * edge, faces));
+                continue;
+            }
             walk.iter().for_each(|&h| seen[(h / 2) as usize] = true);
             let ends = [faces.ends(walk[0])[0], faces.ends(walk[walk.len() - 1])[1]];
             chains.push(if walk.len() == 1 {
@@ -381,8 +387,9 @@ impl Chains {
     }
 }
 
-/// Adds the half-edges of the chain that an edge is part of. A chain that closes on itself stays in single edges.
-fn walk_through(edge: u32, faces: &Faces, passed: &Passed, walks: &mut Vec<u32>) {
+/// Adds the half-edges of the chain that an edge is part of, each once; true when they close on themselves, and all of their
+/// vertices would disappear.
+fn walk_through(edge: u32, faces: &Faces, passed: &Passed, walks: &mut Vec<u32>) -> bool {
     let onward = |h: u32| {
         let head = faces.ends(h)[1];
         let other = passed.get(head)?.into_iter().find(|&e| e != h / 2)?;
@@ -391,12 +398,10 @@ fn walk_through(edge: u32, faces: &Faces, passed: &Passed, walks: &mut Vec<u32>)
     let begin = walks.len();
     let mut h = 2 * edge + 1;
     while let Some(back) = onward(h) {
-        if back == 2 * edge + 1 {
-            walks.truncate(begin);
-            walks.push(2 * edge);
-            return;
-        }
         walks.push(back ^ 1);
+        if back == 2 * edge + 1 {
+            return true;
+        }
         h = back;
     }
     walks[begin..].reverse();
@@ -405,6 +410,7 @@ fn walk_through(edge: u32, faces: &Faces, passed: &Passed, walks: &mut Vec<u32>)
         walks.push(h);
         ahead = onward(h);
     }
+    false
 }
 
 /// Chains with the same ends, or with equal ends, would make edges that cannot be told apart: they stay in pieces.
@@ -520,5 +526,17 @@ mod tests {
         let square: &[&[&[u32]]] = &[&[&[0, 1, 2]], &[&[0, 2, 3]]];
         assert_eq!(merged(square, &[[0, 2]], &[2]), [[[0, 1, 3]]]);
         assert_eq!(merged(square, &[], &[1]), merged(square, &[], &[]), "0 and 2 are joined already");
+    }
+    #[test]
+    fn a_long_ring_is_walked_once() {
+        let n = 300_000;
+        let edges: Vec<[u32; 2]> = (0..n).map(|i| [i, (i + 1) % n]).collect();
+        let loops = Cells::from_parts(vec![0, n], (0..n).map(|edge| 2 * edge).collect());
+        let faces = Faces { edges: &edges, loops: &loops, face_loops: &[0, 1] };
+        let removed = vec![false; edges.len()];
+        let passed = with_two_edges(edges.len(), &edges, &removed, |_| true);
+        let removal = Removal { edges: &removed, new_face: &[0], n_new_faces: 1, vertices: &passed };
+        let merged = merge(&faces, &removal, |_| [0.0; 3]);
+        assert!(merged.vertices.iter().copied().eq(0..n) && merged.loops[0].len() == edges.len());
     }
 }

@@ -7,6 +7,7 @@
 use crate::arrangement::Arrangement;
 use crate::boolean::Solid;
 use crate::evaluator::Evaluator;
+use crate::loops::LoopsOfFaces;
 use crate::merge::{self, Faces, Merged, Passed, Removal};
 use crate::operators::{boundary_1, boundary_2};
 use crate::parallel;
@@ -55,14 +56,14 @@ pub(crate) fn surface(
     stats: &mut Stats,
 ) -> Result<SolidComplex, Cancelled> {
     course.begin("surface", stats)?;
-    let mut surface = OutwardFaces::new(solid, course)?;
+    let faces = solid.boundary_faces();
+    let surface = OutwardFaces::new(solid, &faces, course)?;
     course.begin("coplanar faces", stats)?;
     let joined = match detail {
         Detail::Fragments => surface.all_faces(),
-        Detail::Simplified => surface.merged_faces(course)?,
+        Detail::Simplified => surface.merged_faces(solid, &faces, course)?,
     };
     course.begin("straight edges", stats)?;
-    let faces = std::mem::take(&mut surface.faces);
     let straight = || match detail {
         Detail::Fragments => Passed::default(),
         Detail::Simplified => surface.straight_vertices(&joined),
@@ -172,22 +173,30 @@ fn turned(parent: &Parent, sign: i8) -> Parent {
     Parent { sign: parent.sign * sign, ..*parent }
 }
 
+/// Whether two faces with signs lie in one plane and look the same way.
+fn in_one_plane(a: &Arrangement, [(f, f_sign), (g, g_sign)]: [(FaceId, i8); 2]) -> bool {
+    if a.plane_of_face[f.index()] == a.plane_of_face[g.index()] {
+        return f_sign == g_sign;
+    }
+    let [f, g] = [f, g].map(|i| a.facet_of_face[i.index()]);
+    let same_way = a.geometry.same_way(f, g) == (f_sign == g_sign);
+    same_way && a.geometry.is_coplanar(f, g)
+}
+
 /// The boundary faces of a solid with vertices and edges numbered anew, all turned outwards.
-struct OutwardFaces<'a> {
-    solid: &'a Solid<'a>,
-    faces: Vec<(FaceId, i8)>,
+struct OutwardFaces {
+    /// The points that are its vertices.
     vertices: Vec<u32>,
     edges: Vec<[u32; 2]>,
-    loops: Cells,
-    face_loops: Vec<u32>,
+    loops: LoopsOfFaces,
     /// The faces at each edge, by their numbers here.
     around: Cells,
 }
 
-impl<'a> OutwardFaces<'a> {
-    fn new(solid: &'a Solid<'a>, course: &Course) -> Result<Self, Cancelled> {
+impl OutwardFaces {
+    /// Those of a solid, with the signs that they have in its boundary.
+    fn new(solid: &Solid<'_>, faces: &[(FaceId, i8)], course: &Course) -> Result<Self, Cancelled> {
         let a = solid.arrangement;
-        let faces = solid.boundary_faces();
         let half_edges = |face: FaceId| a.loop_range(face).flat_map(|l| &a.loops[l]).copied();
         let old_edges = Compacted::new(a.n_edges(), faces.len(), |i| half_edges(faces[i].0).map(|h| h / 2));
         course.go_on()?;
@@ -199,8 +208,7 @@ impl<'a> OutwardFaces<'a> {
             let range = parallel::part_of(faces.len(), part);
             // The first part gets room for the others.
             let room = if part == 0 { faces.len() } else { range.len() };
-            let mut loops = Cells::with_capacity(room, 3 * room);
-            let mut ends = Vec::with_capacity(range.len());
+            let mut loops = LoopsOfFaces::with_room(room, room, 3 * room);
             let mut renamed: Vec<u32> = Vec::new();
             for &(old, sign) in &faces[range] {
                 for l in a.loop_range(old) {
@@ -213,37 +221,20 @@ impl<'a> OutwardFaces<'a> {
                     }
                     loops.push(&renamed);
                 }
-                ends.push(loops.len() as u32);
+                loops.close();
             }
-            (loops, ends)
+            loops
         };
-        let mut loops = Cells::new();
-        let mut face_loops = Vec::with_capacity(faces.len() + 1);
-        face_loops.push(0);
-        for (part, ends) in parallel::map(parallel::n_threads(), of_part) {
-            let base = loops.len() as u32;
-            parallel::join(
-                || if base == 0 { loops = part } else { loops.append(&part) },
-                || face_loops.extend(ends.iter().map(|end| base + end)),
-            );
-        }
+        let loops = LoopsOfFaces::joined(parallel::map(parallel::n_threads(), of_part));
         course.go_on()?;
-        let (offsets, mut around) = wrap::faces_at_edges(edges.len(), &loops, &face_loops);
+        let (offsets, mut around) = wrap::faces_at_edges(edges.len(), &loops.loops, &loops.face_loops);
         parallel::each_chunk(&mut around, |_, chunk| chunk.iter_mut().for_each(|entry| *entry /= 2));
         let around = Cells::from_parts(offsets, around);
-        Ok(Self { solid, faces, vertices: vertices.list, edges, loops, face_loops, around })
+        Ok(Self { vertices: vertices.list, edges, loops, around })
     }
 
-    /// Whether two faces lie in one plane and look the same way.
-    fn in_one_plane(&self, f: u32, g: u32) -> bool {
-        let a = self.solid.arrangement;
-        let [(f, f_sign), (g, g_sign)] = [f, g].map(|i| self.faces[i as usize]);
-        if a.plane_of_face[f.index()] == a.plane_of_face[g.index()] {
-            return f_sign == g_sign;
-        }
-        let [f, g] = [f, g].map(|i| a.facet_of_face[i.index()]);
-        let same_way = a.geometry.same_way(f, g) == (f_sign == g_sign);
-        same_way && a.geometry.is_coplanar(f, g)
+    fn n_faces(&self) -> usize {
+        self.loops.face_loops.len() - 1
     }
 
     /// No edge disappears, each face keeps its number.
@@ -253,15 +244,20 @@ impl<'a> OutwardFaces<'a> {
 
     /// Each face keeps its number, as none of the edges is removed.
     fn unjoined(&self, removed: Vec<bool>) -> Joined {
-        let n = self.faces.len();
+        let n = self.n_faces();
         Joined { removed, is_any_removed: false, new_face: parallel::map_light(n, |i| i as u32), n }
     }
 
     /// Edges disappear between faces of one plane.
-    fn merged_faces(&self, course: &Course) -> Result<Joined, Cancelled> {
+    fn merged_faces(
+        &self,
+        solid: &Solid<'_>,
+        faces: &[(FaceId, i8)],
+        course: &Course,
+    ) -> Result<Joined, Cancelled> {
         let n = self.edges.len();
         let mut removed = Vec::with_capacity(n);
-        let is_removed = |edge: usize| matches!(self.around[edge][..], [f, g] if self.in_one_plane(f, g));
+        let is_removed = |edge: usize| matches!(self.around[edge][..], [f, g] if in_one_plane(solid.arrangement, [f, g].map(|i| faces[i as usize])));
         let (n_blocks, range) = parallel::chunks(n, n.div_ceil(BLOCKS).max(LEAST_BLOCK));
         course.walk(n_blocks, 1, |block| {
             let edges = range(block);
@@ -281,12 +277,12 @@ impl<'a> OutwardFaces<'a> {
         let pairs = |edges: Range<usize>| {
             edges.filter(|&edge| removed[edge]).map(|edge| (self.around[edge][0], self.around[edge][1]))
         };
-        let (new_face, n) = UnionFind::of_pairs(self.faces.len(), removed.len(), pairs).labels();
+        let (new_face, n) = UnionFind::of_pairs(self.n_faces(), removed.len(), pairs).labels();
         Joined { is_any_removed: removed.contains(&true), removed, new_face, n: n as usize }
     }
 
     fn loops_of_faces(&self) -> Faces<'_> {
-        Faces { edges: &self.edges, loops: &self.loops, face_loops: &self.face_loops }
+        Faces { edges: &self.edges, loops: &self.loops.loops, face_loops: &self.loops.face_loops }
     }
 
     /// Vertices with two remaining edges that have the same two faces of different planes on both sides.
@@ -312,8 +308,8 @@ impl<'a> OutwardFaces<'a> {
             vertices: Vec::new(),
             edges: self.edges,
             old_half_edge: Vec::new(),
-            loops: self.loops,
-            face_loops: self.face_loops,
+            loops: self.loops.loops,
+            face_loops: self.loops.face_loops,
         };
         (merged, self.vertices)
     }

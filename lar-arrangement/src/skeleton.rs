@@ -9,6 +9,7 @@ mod numbering;
 use crate::counting::offsets;
 use crate::fragment::{FacetParent, Fragments, Groups, WHOLE};
 use crate::kernel::{Along, Direction, Geometry, Vertex, VertexDef, Way};
+use crate::loops::LoopsOfFaces;
 use crate::marks::Marks;
 use crate::parallel;
 use crate::soup::Soup;
@@ -102,7 +103,8 @@ impl Skeleton {
             Some(compact) => numbering.edges(|v| compact[v as usize]),
         };
         let soft = numbering.soft(edges.len());
-        let Faces { loops, face_loops, parents, parent_offsets, of_groups } = Faces::new(&parts, &numbering);
+        let Faces { loops, parents, parent_offsets, of_groups } = Faces::new(&parts, &numbering);
+        let LoopsOfFaces { loops, face_loops } = loops;
         let faces_of_facets = FacesOfFacets::new(groups, &of_groups);
         let Numbering { pieces, directions, .. } = numbering;
         let pieces = Marks::among(edges.len(), &pieces);

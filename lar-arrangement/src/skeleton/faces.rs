@@ -3,16 +3,15 @@
 use super::numbering::Numbering;
 use super::{Group, Parts};
 use crate::fragment::FacetParent;
+use crate::loops::LoopsOfFaces;
 use crate::parallel;
 use crate::soup::Soup;
-use lar_core::Cells;
 use std::ops::Range;
 
 /// Some faces.
 pub(super) struct Faces {
-    pub loops: Cells,
-    /// The loops of face f are `face_loops[f]..face_loops[f + 1]`, the outer one first.
-    pub face_loops: Vec<u32>,
+    /// The outer one of each first.
+    pub loops: LoopsOfFaces,
     pub parents: Vec<FacetParent>,
     /// The parents of face f are `parent_offsets[f]..parent_offsets[f + 1]`.
     pub parent_offsets: Vec<u32>,
@@ -58,23 +57,19 @@ impl Faces {
     }
 
     fn with_room(n_faces: usize, n_loops: usize, n_half_edges: usize) -> Self {
-        let with_zero = || {
-            let mut list = Vec::with_capacity(n_faces + 1);
-            list.push(0);
-            list
-        };
+        let mut parent_offsets = Vec::with_capacity(n_faces + 1);
+        parent_offsets.push(0);
         Self {
-            loops: Cells::with_capacity(n_loops, n_half_edges),
-            face_loops: with_zero(),
+            loops: LoopsOfFaces::with_room(n_faces, n_loops, n_half_edges),
             parents: Vec::with_capacity(n_faces),
-            parent_offsets: with_zero(),
+            parent_offsets,
             of_groups: Vec::new(),
         }
     }
 
     /// A face whose loops are there.
     fn close(&mut self, parents: &[FacetParent]) {
-        self.face_loops.push(self.loops.len() as u32);
+        self.loops.close();
         self.parents.extend_from_slice(parents);
         self.parent_offsets.push(self.parents.len() as u32);
     }
@@ -111,14 +106,11 @@ impl Faces {
     /// Adds those of the next facets.
     fn append(&mut self, other: &Self) {
         let n_faces = self.parent_offsets.len() as u32 - 1;
-        let (n_loops, n_parents) = (self.loops.len() as u32, self.parents.len() as u32);
-        let (loops, rest) =
-            (&mut self.loops, (&mut self.face_loops, &mut self.parents, &mut self.parent_offsets));
+        let n_parents = self.parents.len() as u32;
+        let Self { loops, parents, parent_offsets, .. } = self;
         parallel::join(
             || loops.append(&other.loops),
             || {
-                let (face_loops, parents, parent_offsets) = rest;
-                face_loops.extend(other.face_loops[1..].iter().map(|l| n_loops + l));
                 parents.extend_from_slice(&other.parents);
                 parent_offsets.extend(other.parent_offsets[1..].iter().map(|p| n_parents + p));
             },
