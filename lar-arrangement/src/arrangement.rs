@@ -2,7 +2,7 @@
 
 use crate::grid::Grid;
 use crate::kernel::{Geometry, Vertex, VertexDef};
-use crate::soup::Parent;
+use crate::soup::{Parent, Parents};
 use crate::stats::Stats;
 use crate::winding::{Closure, Windings};
 use lar_core::{CellId, Cells, ChainComplex, EdgeId, ExactPoints, FaceId, Operator, VertexId};
@@ -25,10 +25,7 @@ pub struct Arrangement {
     pub(crate) cells_of_face: Vec<[u32; 2]>,
     pub(crate) shells_of_face: Vec<[u32; 2]>,
     pub(crate) n_shells: u32,
-    pub(crate) parents: Vec<Parent>,
-    pub(crate) parent_offsets: Vec<u32>,
-    /// Where the parents of the first piece of each face end; may be empty when faces are of one piece.
-    pub(crate) crossed_ends: Vec<u32>,
+    pub(crate) parents: FaceParents,
     /// A facet with the plane and orientation of each face.
     pub(crate) facet_of_face: Vec<u32>,
     /// Faces with equal numbers are pieces of one polygon that is meant to be planar.
@@ -41,6 +38,23 @@ pub struct Arrangement {
     /// How far, in grid steps, corners may lie from the plane of their face.
     pub(crate) bend: f64,
     pub(crate) stats: Stats,
+}
+
+/// The parents of the faces.
+#[derive(Debug)]
+pub(crate) struct FaceParents {
+    pub all: Parents,
+    /// How many of them the first piece of each face has, which come first: the ones that a path across it crosses. Empty when
+    /// these are all.
+    pub of_first_pieces: Vec<u32>,
+}
+
+impl FaceParents {
+    /// Those that a path across a face crosses.
+    pub(crate) fn crossed(&self, face: usize) -> &[Parent] {
+        let all = self.all.of(face);
+        self.of_first_pieces.get(face).map_or(all, |&n| &all[..n as usize])
+    }
 }
 
 /// What the arrangement remembers of an input surface.
@@ -209,23 +223,14 @@ impl Arrangement {
     /// of coplanar pieces ([`Merge::Coplanar`](crate::Merge)) has the parents of all of them.
     #[must_use]
     pub fn parents(&self, face: FaceId) -> &[Parent] {
-        &self.parents
-            [self.parent_offsets[face.index()] as usize..self.parent_offsets[face.index() + 1] as usize]
-    }
-
-    /// Whether each face has one parent.
-    pub(crate) fn has_single_parents(&self) -> bool {
-        self.parents.len() == self.n_faces()
+        self.parents.all.of(face.index())
     }
 
     /// The input faces that a path across a face passes at one point of it: its parents, or those of one of the pieces
     /// that it is merged of. The solids crossed, and how, are the same everywhere in a face.
     #[must_use]
     pub fn crossed(&self, face: FaceId) -> &[Parent] {
-        match self.crossed_ends.get(face.index()) {
-            Some(&end) => &self.parents[self.parent_offsets[face.index()] as usize..end as usize],
-            None => self.parents(face),
-        }
+        self.parents.crossed(face.index())
     }
 
     /// Q for one input surface: rows its faces, columns the faces of the arrangement, entry ±1 where the latter is

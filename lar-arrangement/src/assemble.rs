@@ -1,6 +1,6 @@
 //! Stage 5c: the arrangement put together: final numbers, positions, winding numbers.
 
-use crate::arrangement::{Arrangement, SolidInfo};
+use crate::arrangement::{Arrangement, FaceParents, SolidInfo};
 use crate::dissolve::Dissolved;
 use crate::fragment::FacetParent;
 use crate::kernel::Vertex;
@@ -8,7 +8,7 @@ use crate::operators::{boundary_1, boundary_2, boundary_3};
 use crate::parallel;
 use crate::progress::{Cancelled, Course};
 use crate::skeleton::Skeleton;
-use crate::soup::{Parent, Soup};
+use crate::soup::{Parent, Parents, Soup};
 use crate::stats::Stats;
 use crate::winding::{Walls, Windings};
 use lar_core::{ChainComplex, Points, Surface};
@@ -50,7 +50,7 @@ pub(crate) fn assemble(
     });
     let cells_of_face =
         parallel::map_light(n_faces, |face| shells_of_face[face].map(|shell| shells.cell_of[shell as usize]));
-    let parents = Parents::new(&soup, &skeleton, &dissolved);
+    let parents = FaceParents::new(&soup, &skeleton, &dissolved);
     let walls = Walls::of_faces(n_faces, |walls, face| {
         walls.push_face(cells_of_face[face], parents.crossed(face).iter().map(|p| (p.solid, soup.jump(p))));
     });
@@ -94,9 +94,7 @@ pub(crate) fn assemble(
         cells_of_face,
         shells_of_face,
         n_shells: shells.n,
-        parents: parents.parents,
-        parent_offsets: parents.offsets,
-        crossed_ends: parents.crossed,
+        parents,
         facet_of_face,
         plane_of_face,
         windings,
@@ -113,17 +111,8 @@ pub(crate) fn assemble(
     })
 }
 
-/// Parents of the new faces, in terms of input faces.
-struct Parents {
-    parents: Vec<Parent>,
-    /// Those of face f are `offsets[f]..offsets[f + 1]`.
-    offsets: Vec<u32>,
-    /// Those of the first piece of face f end at `crossed[f]`: the ones that a path across it crosses. May be empty when all
-    /// faces are of one piece.
-    crossed: Vec<u32>,
-}
-
-impl Parents {
+impl FaceParents {
+    /// Of the new faces, in terms of input faces.
     fn new(soup: &Soup, skeleton: &Skeleton, dissolved: &Dissolved) -> Self {
         let n = dissolved.n_faces();
         if dissolved.origins.is_none() && skeleton.has_single_parents() && soup.has_single_parents() {
@@ -131,44 +120,39 @@ impl Parents {
                 let piece = &skeleton.parents[face];
                 seen_from(piece, soup.only_parent(piece.facet))
             };
-            let offsets = parallel::map_light(n + 1, |face| face as u32);
-            return Self { parents: parallel::map_light(n, parent), offsets, crossed: Vec::new() };
+            let all = Parents::single(parallel::map_light(n, parent));
+            return Self { all, of_first_pieces: Vec::new() };
         }
-        let mut out = Self { parents: Vec::with_capacity(n), offsets: vec![0], crossed: Vec::new() };
+        let mut parents: Vec<Parent> = Vec::with_capacity(n);
+        let (mut offsets, mut of_first_pieces) = (vec![0], Vec::with_capacity(n));
         let mut rest = dissolved.others();
         for new in 0..n as u32 {
-            let begin = out.parents.len();
-            out.parents.extend(of_piece(soup, skeleton, dissolved.old_face(new)));
-            let end = out.parents.len();
-            out.crossed.push(end as u32);
+            let begin = parents.len();
+            parents.extend(of_piece(soup, skeleton, dissolved.old_face(new)));
+            let end = parents.len();
+            of_first_pieces.push((end - begin) as u32);
             let n = rest.iter().take_while(|piece| piece.0 == new).count();
-            rest[..n].iter().for_each(|piece| out.parents.extend(of_piece(soup, skeleton, piece.1)));
-            out.keep_new(begin, end);
+            rest[..n].iter().for_each(|piece| parents.extend(of_piece(soup, skeleton, piece.1)));
+            keep_new(&mut parents, begin, end);
             rest = &rest[n..];
-            out.offsets.push(out.parents.len() as u32);
+            offsets.push(parents.len() as u32);
         }
-        out
+        Self { all: Parents::listed(parents, offsets), of_first_pieces }
     }
+}
 
-    /// Those that a path across a face crosses.
-    fn crossed(&self, face: usize) -> &[Parent] {
-        let end = self.crossed.get(face).unwrap_or(&self.offsets[face + 1]);
-        &self.parents[self.offsets[face] as usize..*end as usize]
+/// Of the parents from `end` on keeps each once, in order, that is not between `begin` and `end`.
+fn keep_new(parents: &mut Vec<Parent>, begin: usize, end: usize) {
+    if parents.len() == end {
+        return;
     }
-
-    /// Of the parents from `end` on keeps each once, in order, that is not between `begin` and `end`.
-    fn keep_new(&mut self, begin: usize, end: usize) {
-        if self.parents.len() == end {
-            return;
-        }
-        let mut more = self.parents.split_off(end);
-        let mut known = self.parents[begin..].to_vec();
-        known.sort_unstable();
-        more.sort_unstable();
-        more.dedup();
-        more.retain(|p| known.binary_search(p).is_err());
-        self.parents.append(&mut more);
-    }
+    let mut more = parents.split_off(end);
+    let mut known = parents[begin..].to_vec();
+    known.sort_unstable();
+    more.sort_unstable();
+    more.dedup();
+    more.retain(|p| known.binary_search(p).is_err());
+    parents.append(&mut more);
 }
 
 /// The parents of an old face.
@@ -179,8 +163,7 @@ fn of_piece<'a>(soup: &'a Soup, skeleton: &'a Skeleton, face: u32) -> impl Itera
 
 /// A parent of the facet that a face is a piece of, as one of the face.
 fn seen_from(piece: &FacetParent, parent: &Parent) -> Parent {
-    let turn = if piece.same_way { 1 } else { -1 };
-    Parent { sign: parent.sign * turn, ..*parent }
+    parent.turned(if piece.same_way { 1 } else { -1 })
 }
 
 fn positions(soup: &Soup, vertices: &[Vertex]) -> Points {

@@ -13,17 +13,7 @@ pub(crate) fn boundary_1(n_vertices: usize, edges: Vec<[u32; 2]>) -> Operator {
 
 /// ∂2 of faces whose loops are `face_loops[f]..face_loops[f + 1]` of `loops`.
 pub(crate) fn boundary_2(n_edges: usize, loops: &Cells, face_loops: &[u32]) -> Operator {
-    let n_faces = face_loops.len() - 1;
-    let of_faces = |part: usize| {
-        // The first part gets room for the others.
-        let n = if part == 0 { [n_faces, loops.indices().len()] } else { [0; 2] };
-        Columns::new(parallel::part_of(n_faces, part), loops, face_loops, n)
-    };
-    let mut parts = parallel::map(parallel::n_threads(), of_faces).into_iter();
-    let mut all = parts.next().expect("there is a thread");
-    parts.for_each(|part| all.append(&part));
-    let Columns { offsets, edges, signs } = all;
-    ChainComplex::operator_from_columns(n_edges, Cells::from_parts(offsets, edges), signs)
+    Columns::of_faces(loops, face_loops).into_operator(n_edges)
 }
 
 /// Whether half-edges are of different edges.
@@ -32,13 +22,33 @@ fn distinct(a: u32, b: u32) -> bool {
 }
 
 /// Columns of ∂2.
-struct Columns {
+pub(crate) struct Columns {
     offsets: Vec<u32>,
     edges: Vec<u32>,
     signs: Vec<i8>,
 }
 
 impl Columns {
+    /// Of faces whose loops are `face_loops[f]..face_loops[f + 1]` of `loops`.
+    pub(crate) fn of_faces(loops: &Cells, face_loops: &[u32]) -> Self {
+        let n_faces = face_loops.len() - 1;
+        let of_part = |part: usize| {
+            // The first part gets room for the others.
+            let n = if part == 0 { [n_faces, loops.indices().len()] } else { [0; 2] };
+            Self::new(parallel::part_of(n_faces, part), loops, face_loops, n)
+        };
+        let mut parts = parallel::map(parallel::n_threads(), of_part).into_iter();
+        let mut all = parts.next().expect("there is a thread");
+        parts.for_each(|part| all.append(&part));
+        all
+    }
+
+    /// The operator, whose rows are so many edges: looks through the columns once more.
+    pub(crate) fn into_operator(self, n_edges: usize) -> Operator {
+        let Self { offsets, edges, signs } = self;
+        ChainComplex::operator_from_columns(n_edges, Cells::from_parts(offsets, edges), signs)
+    }
+
     /// For some faces the half-edges of their loops, ascending, with room for so many columns and entries. An edge that
     /// stands in a face in both directions is no boundary.
     fn new(

@@ -9,12 +9,11 @@ use crate::boolean::Solid;
 use crate::evaluator::Evaluator;
 use crate::loops::LoopsOfFaces;
 use crate::merge::{self, Faces, Merged, Passed, Removal};
-use crate::operators::{boundary_1, boundary_2};
+use crate::operators::{Columns, boundary_1};
 use crate::parallel;
 use crate::progress::{Cancelled, Course, Plan};
 use crate::solid_complex::SolidComplex;
-use crate::soup::Parent;
-use crate::split::offsets;
+use crate::soup::{Parent, Parents};
 use crate::stats::Stats;
 use crate::union_find::UnionFind;
 use crate::wrap;
@@ -72,9 +71,10 @@ pub(crate) fn surface(
     let (straight, origins) = parallel::join(straight, || Origins::new(solid.arrangement, faces, &joined));
     course.begin("loops", stats)?;
     let points = solid.arrangement.complex().points();
-    let (merged, vertices) = if joined.is_any_removed || !straight.is_empty() {
-        let Joined { removed, new_face, n: n_new_faces, .. } = &joined;
-        let removal = Removal { edges: removed, new_face, n_new_faces: *n_new_faces, vertices: &straight };
+    let (merged, vertices) = if joined.is_any_removed() || !straight.is_empty() {
+        let Joined { removed, n: n_new_faces, .. } = joined;
+        let new_face = joined.new_face.unwrap_or_else(|| parallel::map_light(n_new_faces, |f| f as u32));
+        let removal = Removal { edges: &removed, new_face: &new_face, n_new_faces, vertices: &straight };
         let position = |v: u32| points.xyz(surface.vertices[v as usize] as usize);
         let mut merged = merge::merge(&surface.loops_of_faces(), &removal, position);
         let kept = std::mem::take(&mut merged.vertices);
@@ -90,23 +90,24 @@ pub(crate) fn surface(
 fn finished(merged: Merged, origins: Origins, points: &Points, vertices: &[u32]) -> SolidComplex {
     let Merged { edges, loops: cycles, face_loops, .. } = merged;
     let n_edges = edges.len();
+    let faces = Columns::of_faces(&cycles, &face_loops);
     let others = || {
         let coords = parallel::map_light(vertices.len(), |v| points.xyz(vertices[v] as usize));
-        let half_edges = cycles.indices();
-        let tail = |h: u32| edges[(h / 2) as usize][(h % 2) as usize];
-        let tails = parallel::map_light(half_edges.len(), |i| tail(half_edges[i]));
-        let loops = Cells::from_parts(cycles.offsets().to_vec(), tails);
+        // Half-edges become the vertices that they begin at.
+        let (offsets, mut loops) = cycles.into_parts();
+        parallel::each_chunk(&mut loops, |_, chunk| {
+            chunk.iter_mut().for_each(|h| *h = edges[(*h / 2) as usize][(*h % 2) as usize]);
+        });
+        let loops = Cells::from_parts(offsets, loops);
         (Points::from_columns(3, coords.into_flattened()), loops, boundary_1(vertices.len(), edges))
     };
-    // One thread checks ∂2 in the end, the others have these to do beside it.
-    let (boundary_2, (points, loops, boundary_1)) =
-        parallel::join(|| boundary_2(n_edges, &cycles, &face_loops), others);
+    // One thread checks ∂2, the others have these to do beside it.
+    let (boundary_2, (points, loops, boundary_1)) = parallel::join(|| faces.into_operator(n_edges), others);
     SolidComplex {
         complex: ChainComplex::new(points, vec![boundary_1, boundary_2]),
         loops,
         face_loops,
         parents: origins.parents,
-        parent_offsets: origins.parent_offsets,
         normals: origins.normals,
         pieces: origins.pieces,
     }
@@ -114,8 +115,7 @@ fn finished(merged: Merged, origins: Origins, points: &Points, vertices: &[u32])
 
 /// Where the faces of a surface come from.
 struct Origins {
-    parents: Vec<Parent>,
-    parent_offsets: Vec<u32>,
+    parents: Parents,
     /// The first face of the arrangement that is part of each.
     pieces: Vec<(FaceId, i8)>,
     /// The normals of these.
@@ -128,11 +128,10 @@ impl Origins {
         let normal = |(face, sign): (FaceId, i8)| {
             a.geometry.normal(a.facet_of_face[face.index()]).map(|x| x * f64::from(sign))
         };
-        if joined.n == faces.len() && a.has_single_parents() {
-            let parent = |i: usize| turned(&a.parents(faces[i].0)[0], faces[i].1);
+        if !joined.is_any_removed() && a.parents.all.are_single() {
+            let parent = |i: usize| a.parents(faces[i].0)[0].turned(faces[i].1);
             return Self {
-                parents: parallel::map_light(faces.len(), parent),
-                parent_offsets: parallel::map_light(faces.len() + 1, |i| i as u32),
+                parents: Parents::single(parallel::map_light(faces.len(), parent)),
                 normals: parallel::map_light(faces.len(), |i| normal(faces[i])),
                 pieces: faces,
             };
@@ -140,17 +139,15 @@ impl Origins {
         let mut parents: Vec<(u32, Parent)> = Vec::with_capacity(faces.len());
         // New faces are numbered as their first pieces come.
         let mut pieces = Vec::with_capacity(joined.n);
-        for (&(face, sign), &new) in faces.iter().zip(&joined.new_face) {
+        for (&(face, sign), f) in faces.iter().zip(0..) {
+            let new = joined.new_face(f);
             if pieces.len() == new as usize {
                 pieces.push((face, sign));
             }
-            parents.extend(a.parents(face).iter().map(|p| (new, turned(p, sign))));
+            parents.extend(a.parents(face).iter().map(|p| (new, p.turned(sign))));
         }
-        parents.sort_unstable();
-        parents.dedup();
         Self {
-            parent_offsets: offsets(joined.n, parents.iter().map(|p| p.0)),
-            parents: parents.into_iter().map(|p| p.1).collect(),
+            parents: Parents::sorted(joined.n, parents),
             normals: pieces.iter().map(|&piece| normal(piece)).collect(),
             pieces,
         }
@@ -161,16 +158,20 @@ impl Origins {
 struct Joined {
     /// Edges that disappear between faces that become one.
     removed: Vec<bool>,
-    is_any_removed: bool,
-    /// The new number of each face.
-    new_face: Vec<u32>,
+    /// The new number of each face; none when each keeps its own, as no edge disappears.
+    new_face: Option<Vec<u32>>,
     /// New faces.
     n: usize,
 }
 
-/// The parent of a face as that of one that looks the same way (+1) or the other.
-fn turned(parent: &Parent, sign: i8) -> Parent {
-    Parent { sign: parent.sign * sign, ..*parent }
+impl Joined {
+    fn is_any_removed(&self) -> bool {
+        self.new_face.is_some()
+    }
+
+    fn new_face(&self, face: u32) -> u32 {
+        self.new_face.as_ref().map_or(face, |new| new[face as usize])
+    }
 }
 
 /// Whether two faces with signs lie in one plane and look the same way.
@@ -244,8 +245,7 @@ impl OutwardFaces {
 
     /// Each face keeps its number, as none of the edges is removed.
     fn unjoined(&self, removed: Vec<bool>) -> Joined {
-        let n = self.n_faces();
-        Joined { removed, is_any_removed: false, new_face: parallel::map_light(n, |i| i as u32), n }
+        Joined { removed, new_face: None, n: self.n_faces() }
     }
 
     /// Edges disappear between faces of one plane.
@@ -257,28 +257,31 @@ impl OutwardFaces {
     ) -> Result<Joined, Cancelled> {
         let n = self.edges.len();
         let mut removed = Vec::with_capacity(n);
-        let is_removed = |edge: usize| matches!(self.around[edge][..], [f, g] if in_one_plane(solid.arrangement, [f, g].map(|i| faces[i as usize])));
+        let are_one = |f: u32, g: u32| in_one_plane(solid.arrangement, [f, g].map(|i| faces[i as usize]));
+        let is_removed = |edge: usize| matches!(self.around[edge][..], [f, g] if are_one(f, g));
         let (n_blocks, range) = parallel::chunks(n, n.div_ceil(BLOCKS).max(LEAST_BLOCK));
         course.walk(n_blocks, 1, |block| {
             let edges = range(block);
             parallel::extend_light(&mut removed, edges.len(), |i| is_removed(edges.start + i));
         })?;
-        if parallel::all(n, |edge| !removed[edge]) {
-            return Ok(self.unjoined(removed));
-        }
         let mut joined = self.joined(removed);
-        if merge::keep_folds(&self.loops_of_faces(), &mut joined.removed, &joined.new_face, joined.n) {
+        if let Some(new_face) = &joined.new_face
+            && merge::keep_folds(&self.loops_of_faces(), &mut joined.removed, new_face, joined.n)
+        {
             joined = self.joined(joined.removed);
         }
         Ok(joined)
     }
 
     fn joined(&self, removed: Vec<bool>) -> Joined {
+        if parallel::all(removed.len(), |edge| !removed[edge]) {
+            return self.unjoined(removed);
+        }
         let pairs = |edges: Range<usize>| {
             edges.filter(|&edge| removed[edge]).map(|edge| (self.around[edge][0], self.around[edge][1]))
         };
         let (new_face, n) = UnionFind::of_pairs(self.n_faces(), removed.len(), pairs).labels();
-        Joined { is_any_removed: removed.contains(&true), removed, new_face, n: n as usize }
+        Joined { removed, new_face: Some(new_face), n: n as usize }
     }
 
     fn loops_of_faces(&self) -> Faces<'_> {
@@ -289,7 +292,7 @@ impl OutwardFaces {
     fn straight_vertices(&self, joined: &Joined) -> Passed {
         let sides = |edge: u32| {
             let mut faces: Vec<u32> =
-                self.around[edge as usize].iter().map(|&f| joined.new_face[f as usize]).collect();
+                self.around[edge as usize].iter().map(|&f| joined.new_face(f)).collect();
             faces.sort_unstable();
             faces
         };

@@ -1,6 +1,6 @@
 //! The surface of a solid as a 2-complex, with where its faces come from.
 
-use crate::soup::Parent;
+use crate::soup::{Parent, Parents};
 use crate::union_find::UnionFind;
 use lar_core::{Cells, ChainComplex, FaceId};
 
@@ -12,9 +12,7 @@ pub struct SolidComplex {
     /// Vertices of the loops, the face on their left seen from outside.
     pub(crate) loops: Cells,
     pub(crate) face_loops: Vec<u32>,
-    pub(crate) parents: Vec<Parent>,
-    /// The parents of face f are `parent_offsets[f]..parent_offsets[f + 1]`.
-    pub(crate) parent_offsets: Vec<u32>,
+    pub(crate) parents: Parents,
     /// The exact normals, rounded, up to positive factors.
     pub(crate) normals: Vec<[f64; 3]>,
     /// The first face of the arrangement that is part of each; empty when there is no arrangement.
@@ -42,8 +40,7 @@ impl SolidComplex {
     /// The input faces that a face is made of pieces of; the sign is +1 where they look the same way.
     #[must_use]
     pub fn parents(&self, face: FaceId) -> &[Parent] {
-        let f = face.index();
-        &self.parents[self.parent_offsets[f] as usize..self.parent_offsets[f + 1] as usize]
+        self.parents.of(face.index())
     }
 
     /// The first of the arrangement's faces that a face is made of, and +1 where they look the same way, −1 where not.

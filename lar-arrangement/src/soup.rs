@@ -5,6 +5,7 @@
 //! diagonal inside a polygon.
 
 mod doubles;
+mod parents;
 
 use crate::boxes::Aabb;
 use crate::canonical::Tolerance;
@@ -17,9 +18,11 @@ use crate::half_edges::{self, HalfEdges, MANY};
 use crate::kernel::{Geometry, Sign};
 use crate::parallel;
 use crate::polygon::{Polygon, Shape};
-use crate::split::offsets;
 use lar_core::{Cells, Surface};
 use rustc_hash::FxHashMap;
+
+pub use parents::Parent;
+pub(crate) use parents::Parents;
 
 /// Points a chunk of work.
 const POINTS_A_CHUNK: usize = 1 << 12;
@@ -28,57 +31,6 @@ const POINTS_A_CHUNK: usize = 1 << 12;
 const MANY_SURFACES: usize = 1 << 10;
 /// And when they have so many faces: what belongs to fewer fits into the caches of a processor, wherever it is.
 const MANY_FACES: usize = 1 << 17;
-
-/// A face of the input that a polygon stands for: `sign` is −1 when the polygon is turned the other way.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Parent {
-    /// Index of the input surface.
-    pub solid: u32,
-    /// Face of that surface.
-    pub face: u32,
-    /// +1 or −1: the same orientation or the opposite one.
-    pub sign: i8,
-}
-
-/// The parents of all polygons.
-#[derive(Debug)]
-struct Parents {
-    list: Vec<Parent>,
-    /// Those of polygon p are `offsets[p]..offsets[p + 1]` of the list; empty when each has one, in its place.
-    offsets: Vec<u32>,
-}
-
-impl Parents {
-    /// From the first of each polygon, and others with their polygons.
-    fn new(firsts: Vec<Parent>, others: Vec<(u32, Parent)>) -> Self {
-        if others.is_empty() {
-            return Self { list: firsts, offsets: Vec::new() };
-        }
-        let n_polygons = firsts.len();
-        Self::by_polygon(n_polygons, (0..).zip(firsts).chain(others).collect())
-    }
-
-    /// From all, each with its polygon.
-    fn by_polygon(n_polygons: usize, mut all: Vec<(u32, Parent)>) -> Self {
-        all.sort_unstable();
-        let offsets = offsets(n_polygons, all.iter().map(|p| p.0));
-        Self { list: all.into_iter().map(|p| p.1).collect(), offsets }
-    }
-
-    /// Those of a polygon, ascending.
-    fn of(&self, polygon: u32) -> &[Parent] {
-        let p = polygon as usize;
-        if self.are_single() {
-            return std::slice::from_ref(&self.list[p]);
-        }
-        &self.list[self.offsets[p] as usize..self.offsets[p + 1] as usize]
-    }
-
-    /// Whether each polygon has one.
-    fn are_single(&self) -> bool {
-        self.offsets.is_empty()
-    }
-}
 
 /// The vertices of the input in their places.
 #[derive(Debug)]
@@ -230,7 +182,7 @@ impl Soup {
             facet_edges,
             facets_of_edge,
             facet_polygon: facets.polygon,
-            parents: Parents::new(first_parents, other_parents),
+            parents: Parents::with_others(first_parents, other_parents),
             polygon_flat,
             polygon_plane,
             point_ids,
@@ -370,7 +322,7 @@ impl Soup {
     /// The parent of a facet, where all polygons have one.
     pub(crate) fn only_parent(&self, facet: u32) -> &Parent {
         debug_assert!(self.has_single_parents());
-        &self.parents.list[self.facet_polygon[facet as usize] as usize]
+        &self.parents.of(self.facet_polygon[facet as usize] as usize)[0]
     }
 
     /// Whether all polygons have one parent.
@@ -380,7 +332,7 @@ impl Soup {
 
     /// Parents of a polygon.
     pub(crate) fn polygon_parents(&self, polygon: u32) -> &[Parent] {
-        self.parents.of(polygon)
+        self.parents.of(polygon as usize)
     }
 }
 

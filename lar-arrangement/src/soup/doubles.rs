@@ -80,17 +80,16 @@ pub(super) fn dropped(mut soup: Soup, doubles: &[Double]) -> Soup {
     let stays: Vec<bool> = taker.iter().zip(0..).map(|(&(taker, _), p)| taker == p).collect();
     let mut new_polygon = offsets(n_polygons, (0..n_polygons as u32).filter(|&p| stays[p as usize]));
     new_polygon.truncate(n_polygons);
-    let mut parents: Vec<(u32, Parent)> = Vec::with_capacity(soup.parents.list.len());
+    let mut parents: Vec<(u32, Parent)> = Vec::with_capacity(soup.parents.len());
     for (polygon, &(taker, same_way)) in (0..n_polygons as u32).zip(&taker) {
         let sign = if same_way { 1 } else { -1 };
         let of_polygon = soup.polygon_parents(polygon).iter();
-        parents
-            .extend(of_polygon.map(|p| (new_polygon[taker as usize], Parent { sign: sign * p.sign, ..*p })));
+        parents.extend(of_polygon.map(|p| (new_polygon[taker as usize], p.turned(sign))));
     }
     soup.polygon_flat = (0..n_polygons).filter(|&p| stays[p]).map(|p| soup.polygon_flat[p]).collect();
     let mut is_staying = stays.iter();
     soup.polygon_plane.retain(|_| *is_staying.next().expect("a plane a polygon, or none at all"));
-    soup.parents = Parents::by_polygon(soup.polygon_flat.len(), parents);
+    soup.parents = Parents::sorted(soup.polygon_flat.len(), parents);
     let mut kept = Cells::with_capacity(soup.n_facets(), soup.facet_edges.indices().len());
     let staying = soup.facet_edges.iter().zip(&is_double).filter(|(_, is_double)| !**is_double);
     staying.for_each(|(edges, _)| kept.push(edges));
