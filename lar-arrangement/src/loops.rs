@@ -34,10 +34,14 @@ impl LoopsOfFaces {
     pub(crate) fn append(&mut self, other: &Self) {
         let n_loops = self.loops.len() as u32;
         let Self { loops, face_loops } = self;
-        parallel::join(
-            || loops.append(&other.loops),
-            || face_loops.extend(other.face_loops[1..].iter().map(|l| n_loops + l)),
-        );
+        let mut add_loops = || loops.append(&other.loops);
+        let mut add_faces = || face_loops.extend(other.face_loops[1..].iter().map(|l| n_loops + l));
+        if other.loops.indices().len() < parallel::LIGHT_CHUNK {
+            add_loops();
+            add_faces();
+        } else {
+            parallel::join(add_loops, add_faces);
+        }
     }
 
     /// The faces of all parts, one after the other; best the first has room for the others.

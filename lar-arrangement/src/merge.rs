@@ -527,6 +527,7 @@ mod tests {
         assert_eq!(merged(square, &[[0, 2]], &[2]), [[[0, 1, 3]]]);
         assert_eq!(merged(square, &[], &[1]), merged(square, &[], &[]), "0 and 2 are joined already");
     }
+
     #[test]
     fn a_long_ring_is_walked_once() {
         let n = 300_000;
