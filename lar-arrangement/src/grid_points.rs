@@ -3,9 +3,6 @@
 use crate::parallel;
 use std::ops::Range;
 
-/// Points are looked at so many at a time.
-const BLOCK: usize = 256;
-
 /// Open addressing: at least half of the slots are empty.
 #[derive(Debug, Default)]
 pub(crate) struct PointTable {
@@ -23,22 +20,41 @@ pub(crate) struct Unified {
 }
 
 impl Unified {
-    /// Every thread looks at all points and takes those with a place in its part of the table. O(n) expected for each.
+    /// Every thread hands the points of its share to the thread in whose part of the table they belong. O(n) expected.
     pub(crate) fn new(mut points: Vec<[i64; 3]>) -> Self {
         let at = |i: u32| points[i as usize];
         let mut table = PointTable { slots: parallel::zeros(PointTable::n_slots(points.len())) };
-        let n_slots = table.slots.len();
-        let filled = parallel::map_parts(&mut table.slots, |range, slots| {
-            let mut part = Part { slots, range, bits: n_slots.ilog2(), ..Part::default() };
-            let mut own = [(0, 0); BLOCK];
-            for (block, begin) in points.chunks(BLOCK).zip((0..).step_by(BLOCK)) {
-                let mut n = 0;
-                // Without a branch: it is by chance whose a point is.
-                for (&point, i) in block.iter().zip(begin..) {
-                    own[n] = (hash(point), i);
-                    n += usize::from(part.place(own[n].0).is_some());
+        let (n_slots, n_parts) = (table.slots.len(), parallel::n_threads());
+        let bits = n_slots.ilog2();
+        let hashed = |share: Range<usize>| {
+            let begin = share.start as u32;
+            points[share].iter().zip(begin..).map(|(&point, i)| (hash(point), i))
+        };
+        let handed = (n_parts > 1).then(|| {
+            parallel::map(n_parts, |share| {
+                let share = parallel::part_of(points.len(), share);
+                // Somewhat more than equally many for each: they are spread by chance.
+                let room = 9 * share.len() / (8 * n_parts);
+                let mut of_parts: Vec<Vec<(u64, u32)>> =
+                    (0..n_parts).map(|_| Vec::with_capacity(room)).collect();
+                for (hash, i) in hashed(share) {
+                    of_parts[part_with(home(hash, bits), bits, n_parts)].push((hash, i));
                 }
-                own[..n].iter().for_each(|&(hash, i)| part.insert(hash, i, at));
+                of_parts
+            })
+        });
+        let slots =
+            parallel::cut(&mut table.slots, (0..n_parts).map(|i| parallel::part_of(n_slots, i).len()));
+        let filled = parallel::map_each(slots, |i, slots| {
+            let begin = parallel::part_of(n_slots, i).start;
+            let mut part = Part { slots, begin, bits, ..Part::default() };
+            match &handed {
+                None => hashed(0..points.len()).for_each(|(hash, i)| part.insert(hash, i, at)),
+                // Share by share, as the points come.
+                Some(handed) => {
+                    let own = handed.iter().flat_map(|of_parts| &of_parts[i]);
+                    own.for_each(|&(hash, i)| part.insert(hash, i, at));
+                }
             }
             (part.repeated, part.left)
         });
@@ -84,7 +100,8 @@ impl Unified {
 #[derive(Default)]
 struct Part<'a> {
     slots: &'a mut [u64],
-    range: Range<usize>,
+    /// The first of them.
+    begin: usize,
     /// There are 2^bits slots in all.
     bits: u32,
     /// Points that are there already, and the numbers of the first ones that equal them.
@@ -94,14 +111,9 @@ struct Part<'a> {
 }
 
 impl Part<'_> {
-    /// Where a point belongs in the part, if it does.
-    fn place(&self, hash: u64) -> Option<usize> {
-        home(hash, self.bits).checked_sub(self.range.start).filter(|&i| i < self.slots.len())
-    }
-
-    /// Adds a point if it has a place in the part.
+    /// Adds a point that has its place in the part.
     fn insert(&mut self, hash: u64, i: u32, at: impl Fn(u32) -> [i64; 3]) {
-        let Some(home) = self.place(hash) else { return };
+        let home = home(hash, self.bits) - self.begin;
         for entry in &mut self.slots[home..] {
             if *entry == 0 {
                 *entry = tag(hash) | (u64::from(i) + 1);
@@ -169,6 +181,11 @@ fn home(hash: u64, bits: u32) -> usize {
     (hash >> (64 - bits)) as usize
 }
 
+/// Which of the parts that `parallel::part_of` makes of 2^bits slots has a slot.
+fn part_with(slot: usize, bits: u32, n_parts: usize) -> usize {
+    ((slot + 1) * n_parts - 1) >> bits
+}
+
 fn tag(hash: u64) -> u64 {
     hash << 32 & TAG
 }
@@ -197,6 +214,20 @@ mod tests {
         assert_eq!(table.find(lattice(200), |id| points[id as usize]), Some(200));
         assert_eq!(table.find([1, 2, 3], |id| points[id as usize]), None);
         assert_eq!(PointTable::default().find([0; 3], |_| [0; 3]), None);
+    }
+
+    #[test]
+    fn every_slot_is_in_one_part() {
+        for (bits, n_parts) in [(1, 1), (1, 5), (3, 2), (3, 3), (4, 5), (6, 64), (10, 7)] {
+            let n = 1 << bits;
+            for slot in 0..n {
+                let part = part_with(slot, bits, n_parts);
+                assert!(
+                    (n * part / n_parts..n * (part + 1) / n_parts).contains(&slot),
+                    "{slot} of {n}, {n_parts} parts"
+                );
+            }
+        }
     }
 
     proptest! {
