@@ -4,7 +4,9 @@ use crate::TriangulateError;
 use crate::face::{Quality, Triangulator};
 use crate::flat::small;
 use crate::loops::{FaceLoops, columns};
+use crate::parallel;
 use lar_core::{CellId, ChainComplex, FaceId, Points, TriangleMesh};
+use std::ops::Range;
 
 /// Triangles of every face of a complex.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -19,19 +21,39 @@ pub struct Triangulation {
 
 impl Triangulation {
     /// Triangulates all faces, given by their loops.
-    /// O(n log n) for n corners of one face, as a rule; all faces one after the other.
+    /// O(n log n) for n corners of one face, as a rule; some faces after the other on each thread of the current pool.
     ///
     /// # Errors
-    /// Those of [`crate::triangulate_face`], and [`TriangulateError::TooMany`].
+    /// Those of [`crate::triangulate_face`], of the first face that has one, and [`TriangulateError::TooMany`].
     pub fn new(points: &Points, loops: &FaceLoops) -> Result<Self, TriangulateError> {
+        let parts = parallel::map_parts(loops.n_faces(), |faces| Self::of_part(points, loops, faces))?;
+        let n_triangles: usize = parts.iter().map(|part| part.triangles.len()).sum();
+        small(n_triangles)?;
+        let mut parts = parts.into_iter();
+        let mut all = parts.next().unwrap_or_default();
+        all.triangles.reserve_exact(n_triangles - all.triangles.len());
+        all.face_offsets.reserve_exact(loops.n_faces() + 1 - all.face_offsets.len());
+        parts.for_each(|part| all.append(&part));
+        Ok(all)
+    }
+
+    fn of_part(points: &Points, loops: &FaceLoops, faces: Range<usize>) -> Result<Self, TriangulateError> {
         let mut all = Self { face_offsets: vec![0], ..Self::default() };
         let mut triangulator = Triangulator::new();
-        for f in (0u32..).take(loops.n_faces()) {
-            let quality = triangulator.face(points, loops.face(FaceId(f)), &mut all.triangles)?;
+        for f in faces {
+            let quality = triangulator.face(points, loops.face(FaceId(f as u32)), &mut all.triangles)?;
             all.fallbacks += usize::from(quality == Quality::Combinatorial);
             all.face_offsets.push(small(all.triangles.len())?);
         }
         Ok(all)
+    }
+
+    /// Adds the faces of another, behind its own.
+    fn append(&mut self, other: &Self) {
+        let begin = self.triangles.len() as u32;
+        self.triangles.extend_from_slice(&other.triangles);
+        self.face_offsets.extend(other.face_offsets[1..].iter().map(|end| begin + end));
+        self.fallbacks += other.fallbacks;
     }
 
     /// Number of faces.
@@ -96,7 +118,7 @@ impl Triangulation {
 
 /// Triangulates all faces of a complex of dimension 2 or 3 (or more: its 2-cells).
 ///
-/// Time O(n log n) in the corners of the faces, with buffers shared by all faces.
+/// Time O(n log n) in the corners of the faces, shared by the threads of the current pool, with buffers shared by the faces of each.
 ///
 /// # Errors
 /// Those of [`FaceLoops::new`] and [`crate::triangulate_face`].
@@ -163,12 +185,21 @@ pub fn triangulate_cells(complex: &ChainComplex) -> Result<CellTriangles, Triang
     let cells = columns(complex, 3)?;
     let loops = FaceLoops::new(complex)?;
     let faces = Triangulation::new(complex.points(), &loops)?;
-    let (mut triangles, mut offsets) = (Vec::with_capacity(2 * faces.triangles.len()), vec![0]);
-    for column in cells.outer_iterator() {
-        for (f, &sign) in column.iter() {
-            faces.push_signed(FaceId(f as u32), sign, &mut triangles);
+    let cells = parallel::map_parts(cells.cols(), |part| {
+        let (mut triangles, mut offsets) = (Vec::new(), Vec::with_capacity(part.len()));
+        for column in part.filter_map(|c| cells.outer_view(c)) {
+            column.iter().for_each(|(f, &sign)| faces.push_signed(FaceId(f as u32), sign, &mut triangles));
+            offsets.push(triangles.len());
         }
-        offsets.push(small(triangles.len())?);
+        Ok((triangles, offsets))
+    })?;
+    let mut triangles = Vec::with_capacity(cells.iter().map(|(triangles, _)| triangles.len()).sum());
+    let mut offsets = vec![0];
+    for (of_part, ends) in cells {
+        for end in ends {
+            offsets.push(small(triangles.len() + end)?);
+        }
+        triangles.extend(of_part);
     }
     Ok(CellTriangles { faces, loops, triangles, offsets })
 }

@@ -33,6 +33,7 @@ mod flips;
 mod hull;
 mod laws;
 mod loops;
+mod parallel;
 mod planar;
 mod predicates;
 mod ring;

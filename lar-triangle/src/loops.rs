@@ -6,7 +6,9 @@
 
 use crate::TriangulateError;
 use crate::flat::newell;
+use crate::parallel;
 use lar_core::{Cells, ChainComplex, EdgeId, FaceId, Operator, VertexId};
+use std::ops::Range;
 
 /// The boundary loops of all faces. `loops[l]` lists the vertices of loop l in the direction of ∂2;
 /// `face_offsets[f]..face_offsets[f + 1]` are the loops of face f, the one with the largest area first.
@@ -20,7 +22,7 @@ impl FaceLoops {
     /// The loops of each face of a complex of dimension 2 or more.
     ///
     /// A boundary that visits a vertex several times is cut into loops there, so that no loop visits a vertex
-    /// twice. Time and memory O(faces + edges of faces), but for sorting the edges of one face.
+    /// twice. Time and memory O(faces + edges of faces), but for sorting the edges of one face; by the threads of the current pool.
     ///
     /// # Errors
     /// [`TriangulateError::ComplexDimension`], [`TriangulateError::Shape`], [`TriangulateError::BadEdge`] and
@@ -36,9 +38,24 @@ impl FaceLoops {
     pub fn new(complex: &ChainComplex) -> Result<Self, TriangulateError> {
         let edges = edge_ends(complex)?;
         let faces = columns(complex, 2)?;
-        let mut all = Self { loops: Cells::with_capacity(faces.cols(), faces.nnz()), face_offsets: vec![0] };
+        let parts = parallel::map_parts(faces.cols(), |part| Self::of_part(complex, &edges, &faces, part))?;
+        let mut parts = parts.into_iter();
+        let mut all = parts.next().unwrap_or_default();
+        parts.for_each(|part| all.append(&part));
+        Ok(all)
+    }
+
+    fn of_part(
+        complex: &ChainComplex,
+        edges: &[(u32, u32)],
+        faces: &Operator,
+        part: Range<usize>,
+    ) -> Result<Self, TriangulateError> {
+        let n_arcs = faces.indptr().index(part.end) - faces.indptr().index(part.start);
+        let mut all =
+            Self { loops: Cells::with_capacity(part.len(), n_arcs as usize), face_offsets: vec![0] };
         let mut walk = Walk::default();
-        for (f, column) in (0u32..).zip(faces.outer_iterator()) {
+        for (f, column) in part.filter_map(|f| Some((FaceId(f as u32), faces.outer_view(f)?))) {
             walk.arcs.clear();
             for (e, &sign) in column.iter() {
                 let (tail, head) = edges[e];
@@ -53,12 +70,19 @@ impl FaceLoops {
                 all.face_offsets.push(all.loops.len() as u32);
                 continue;
             }
-            walk.check(FaceId(f))?;
+            walk.check(f)?;
             walk.cut();
             walk.outer_first(complex);
             all.loops_of_face(&walk);
         }
         Ok(all)
+    }
+
+    /// Adds the faces of another, behind its own.
+    fn append(&mut self, other: &Self) {
+        let begin = self.loops.len() as u32;
+        self.loops.append(&other.loops);
+        self.face_offsets.extend(other.face_offsets[1..].iter().map(|end| begin + end));
     }
 
     fn loops_of_face(&mut self, walk: &Walk) {
@@ -137,7 +161,7 @@ struct Walk {
     /// Where the path visits the tail of each run of arcs; indexed by the run's first arc.
     on_path: Vec<Option<usize>>,
     vertices: Vec<u32>,
-    found: Vec<std::ops::Range<usize>>,
+    found: Vec<Range<usize>>,
     polygon: Vec<[f64; 3]>,
 }
 

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Polygon, sieve, triangle_area};
-use lar_core::{CellId, Cells, ChainComplex, FaceId, Operator, Points, TriangleMesh, VertexId};
+use lar_core::{CellId, Cells, ChainComplex, FaceId, Operator, Points, TriangleMesh, VertexId, cuboid_grid};
 use lar_triangle::{
     FaceLoops, TriangulateError, Triangulation, check_laws, triangulate, triangulate_cells, triangulate_face,
 };
@@ -204,4 +204,33 @@ fn malformed_complexes() {
     let cubes = two_cubes(0.0);
     let error = triangulate(&cubes).expect("cubes").cell_mesh(&cubes, CellId(3)).expect_err("no such cell");
     assert_eq!(error, TriangulateError::NoSuchCell { cell: CellId(3), cells: 3 });
+}
+
+/// What a closure returns on one thread, which it returns on two and three, too.
+#[cfg(feature = "rayon")]
+fn on_any_number_of_threads<R: PartialEq + std::fmt::Debug + Send>(f: impl Fn() -> R + Sync) -> R {
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("there are threads");
+        pool.install(&f)
+    };
+    let one = on(1);
+    (2..=3).for_each(|threads| assert_eq!(on(threads), one, "{threads} threads"));
+    one
+}
+
+#[cfg(feature = "rayon")]
+#[test]
+fn threads_change_nothing() {
+    let grid = ChainComplex::from_model(&cuboid_grid(&[11, 12, 13])).expect("a grid is a complex");
+    let cells = on_any_number_of_threads(|| triangulate_cells(&grid)).expect("its faces are squares");
+    assert_eq!((cells.n_cells(), cells.faces.n_faces()), (1716, 5579));
+    assert!((0..1716).all(|c| cells.cell(CellId(c)).len() == 12));
+    // Of two faces that do not close the first one is named.
+    let mut faces = grid.boundary(2).clone();
+    for face in [3000, 700] {
+        faces.data_mut()[4 * face] *= -1;
+    }
+    let broken = ChainComplex::new(grid.points().clone(), vec![grid.boundary(1).clone(), faces]);
+    let error = on_any_number_of_threads(|| triangulate(&broken)).expect_err("two faces are open");
+    assert!(matches!(error, TriangulateError::OpenFace { face: FaceId(700), .. }), "{error}");
 }
