@@ -45,6 +45,7 @@ fn crates_meet_only_in_lar_core() {
     check("lar-arrangement", &[], &["lar-core"], &GRAPHICS);
     check("lar-arrangement", &["--no-default-features"], &["lar-core"], &["rayon"]);
     check("lar-triangle", &[], &["lar-core"], &GRAPHICS);
+    check("lar-triangle", &["--no-default-features"], &["lar-core"], &["rayon"]);
     check("lar-viewer", &[], &["lar-core"], &["rayon", "spade"]);
     check("lar-viewer", &["--no-default-features"], &["lar-core"], &["winit", "egui", "egui-winit"]);
 }

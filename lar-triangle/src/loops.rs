@@ -120,15 +120,19 @@ fn edge_ends(complex: &ChainComplex) -> Result<Vec<(u32, u32)>, TriangulateError
         return Err(TriangulateError::ComplexDimension { dim: complex.dim(), needed: 2 });
     }
     let columns = columns(complex, 1)?;
-    let mut ends = Vec::with_capacity(columns.cols());
-    for (e, column) in (0u32..).zip(columns.outer_iterator()) {
-        let ((&[tail, head], [-1, 1]) | (&[head, tail], [1, -1])) = (column.indices(), column.data()) else {
-            let entries = column.iter().map(|(i, &x)| (i as u32, x)).collect();
-            return Err(TriangulateError::BadEdge { edge: EdgeId(e), entries });
-        };
-        ends.push((tail, head));
-    }
-    Ok(ends)
+    let parts = parallel::map_parts(columns.cols(), |part| {
+        let mut ends = Vec::with_capacity(part.len());
+        for (e, column) in part.filter_map(|e| Some((EdgeId(e as u32), columns.outer_view(e)?))) {
+            let ((&[tail, head], [-1, 1]) | (&[head, tail], [1, -1])) = (column.indices(), column.data())
+            else {
+                let entries = column.iter().map(|(i, &x)| (i as u32, x)).collect();
+                return Err(TriangulateError::BadEdge { edge: e, entries });
+            };
+            ends.push((tail, head));
+        }
+        Ok(ends)
+    })?;
+    Ok(parts.concat())
 }
 
 /// ∂p by columns.

@@ -8,7 +8,7 @@ const WORTH_THREADS: usize = 1 << 10;
 
 /// At most so many parts: where there are fewer, one thread waits long for the other's last.
 #[cfg(feature = "rayon")]
-const PARTS: usize = 128;
+const PARTS: usize = 32;
 
 /// Applies `f` to the parts of 0..n, and returns what it makes of them in order, or the first error.
 #[cfg(feature = "rayon")]
