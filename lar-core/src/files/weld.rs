@@ -68,6 +68,14 @@ impl<T: Bits, const D: usize> Welder<T, D> {
         self.n as usize
     }
 
+    /// Makes room in the table for so many more vertices, which then needs not grow step by step.
+    pub(crate) fn expect(&mut self, vertices: usize) {
+        let needed = (2 * (self.len() + vertices)).next_power_of_two();
+        if needed > self.slots.len() {
+            self.resize(needed);
+        }
+    }
+
     /// The vertex at `point`; expected O(1). The caller keeps the number of vertices below 2^32 − 1.
     pub(crate) fn vertex(&mut self, point: [T; D]) -> u32 {
         if self.len() >= self.slots.len() / 2 {
@@ -146,10 +154,14 @@ impl<T: Bits, const D: usize> Welder<T, D> {
     }
 
     fn grow(&mut self) {
-        let doubled = self.slots.len() * 2;
+        self.resize(2 * self.slots.len());
+    }
+
+    /// Puts the vertices into a table of another size, a power of two.
+    fn resize(&mut self, n_slots: usize) {
         self.slots = Vec::new();
-        self.slots = vec![EMPTY; doubled];
-        let mask = doubled - 1;
+        self.slots = vec![EMPTY; n_slots];
+        let mask = n_slots - 1;
         for vertex in 0..self.n {
             let mut slot = hash(self.point(vertex)) & mask;
             while self.slots[slot] != EMPTY {

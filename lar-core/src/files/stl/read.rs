@@ -39,6 +39,8 @@ pub(crate) fn read_binary(source: &mut Source<'_>) -> Result<SurfaceFile, MeshFi
         let announced = header(source)?;
         // The length of the file has vouched for them.
         source.make_room(&mut facets.indices, 3 * announced as usize)?;
+        // A closed surface has half as many vertices as facets.
+        facets.welder.expect(announced as usize / 2);
         for _ in 0..announced {
             let at = source.at_byte();
             let facet: [u8; FACET] = source.bytes("a facet of 50 bytes")?;
