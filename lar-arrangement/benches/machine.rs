@@ -3,6 +3,8 @@
 //!
 //! Each kind of work is done by turns by one thread and, in halves, by two. Printed are medians of the times and of their ratios.
 
+#![expect(clippy::print_stdout, reason = "a bench that reports")]
+
 use std::hint::black_box;
 use std::ops::Range;
 use std::thread;
