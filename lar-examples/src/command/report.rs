@@ -3,9 +3,9 @@
 use crate::CommandError;
 use crate::bar::Bar;
 use crate::output::Sink;
-use lar_arrangement::{Arrangement, Arranger, Closure, Merge, Planes, Stats};
-use lar_core::{CellId, Surface};
-use lar_triangle::{Defects, Triangulation};
+use lar_arrangement::{Arrangement, ArrangementError, Arranger, Closure, Merge, Planes, Stats};
+use lar_core::{CellId, ChainComplex, Surface};
+use lar_triangle::{Defects, Triangulation, triangulate};
 use serde::{Serialize, Serializer};
 use std::io::Write;
 use std::num::NonZeroUsize;
@@ -62,6 +62,16 @@ impl Threads {
     pub(crate) fn count(self) -> NonZeroUsize {
         let all = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
         self.threads.unwrap_or_else(all)
+    }
+
+    /// Triangulates the faces of a complex.
+    pub(crate) fn triangulate(self, complex: &ChainComplex) -> Result<Triangulation, CommandError> {
+        let Some(threads) = self.threads.map(NonZeroUsize::get) else {
+            return Ok(triangulate(complex)?);
+        };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let pool = pool.map_err(|e| ArrangementError::Threads { threads, reason: e.to_string() })?;
+        Ok(pool.install(|| triangulate(complex))?)
     }
 }
 
