@@ -77,7 +77,9 @@ fn cells(renderer: &mut OffscreenRenderer, n: usize) -> Result<(), Box<dyn std::
             prepared.render(&view, 1280, 720)
         })?;
     }
-    let hit = timed("picking", || prepared.pick(&view, [1280, 720], [640, 360], 5))?;
+    let pick = || prepared.pick(&view, [1280, 720], [640, 360], 5);
+    timed("picking for the first time: shaders", pick)?;
+    let hit = timed("picking", pick)?;
     session.apply(Command::Hide(vec![CellRef::new(3, 0)]));
     let looks = timed("looks after a cell was hidden", || stage.appearances(&session));
     timed("their upload", || prepared.set_appearances(&looks))?;
