@@ -60,19 +60,23 @@ pub(crate) struct Threads {
 
 impl Threads {
     pub(crate) fn count(self) -> NonZeroUsize {
-        let all = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
-        self.threads.unwrap_or_else(all)
+        self.threads.unwrap_or_else(processors)
     }
 
-    /// Triangulates the faces of a complex.
+    /// Triangulates the faces of a complex, by no more threads than there are processors.
     pub(crate) fn triangulate(self, complex: &ChainComplex) -> Result<Triangulation, CommandError> {
-        let Some(threads) = self.threads.map(NonZeroUsize::get) else {
+        if processors() <= self.count() {
             return Ok(triangulate(complex)?);
-        };
+        }
+        let threads = self.count().get();
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let pool = pool.map_err(|e| ArrangementError::Threads { threads, reason: e.to_string() })?;
         Ok(pool.install(|| triangulate(complex))?)
     }
+}
+
+fn processors() -> NonZeroUsize {
+    std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
 }
 
 /// What becomes of faces that are nearly coplanar.
