@@ -109,7 +109,7 @@ const WORTH_THREADS: usize = 1 << 15;
 impl Team {
     #[cfg(feature = "rayon")]
     pub(crate) fn new(threads: Option<NonZeroUsize>) -> Self {
-        Self { threads, pool: OnceLock::new() }
+        Self { threads: threads.map(|n| n.min(most_threads())), pool: OnceLock::new() }
     }
 
     /// There is one.
@@ -153,6 +153,13 @@ impl Team {
         let pool = kept_pool(threads)?;
         Ok(self.pool.get_or_init(|| pool))
     }
+}
+
+/// More threads are not started, whatever the limit is: they would take turns on the processors, and each takes memory.
+#[cfg(feature = "rayon")]
+fn most_threads() -> NonZeroUsize {
+    const MANY: NonZeroUsize = NonZeroUsize::new(64).expect("not zero");
+    std::thread::available_parallelism().unwrap_or(MANY).max(MANY)
 }
 
 /// So many threads: those that were kept, or new ones in their place.
@@ -507,6 +514,15 @@ pub(crate) fn chunks(n: usize, size: usize) -> (usize, impl Fn(usize) -> Range<u
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    #[cfg(feature = "rayon")]
+    fn a_limit_of_threads_is_no_demand() {
+        for (limit, started) in [(1, 1), (7, 7), (64, 64), (1_000_000, most_threads().get())] {
+            let team = Team::new(NonZeroUsize::new(limit));
+            assert_eq!(team.work(usize::MAX, n_threads).expect("there are threads"), started, "{limit}");
+        }
+    }
 
     #[test]
     fn lists_are_joined_in_their_order() {

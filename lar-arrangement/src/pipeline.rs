@@ -118,8 +118,9 @@ impl<'a> Arranger<'a> {
         Self::default()
     }
 
-    /// Limits the number of threads. Those of the last operation that had more than one wait for the next one with the same
-    /// number. Without the feature `rayon` there is one.
+    /// Limits the number of threads: of a limit above the number of processors and 64, no more are started. Those of the
+    /// last operation that had more than one wait for the next one with the same number. Without the feature `rayon` there
+    /// is one.
     #[must_use]
     pub fn threads(mut self, threads: NonZeroUsize) -> Self {
         self.threads = Some(threads);

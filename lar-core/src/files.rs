@@ -37,6 +37,6 @@ pub(crate) use source::MARK;
 pub(crate) use source::clip;
 pub(crate) use text::TextWriter;
 pub(crate) use text::push_number;
+pub(crate) use weld::Corners;
 pub use weld::Weld;
-pub(crate) use weld::Welder;
 pub(crate) use words::{Words, words_of};

@@ -6,9 +6,9 @@ use std::ops::Range;
 #[cfg(feature = "rayon")]
 const WORTH_THREADS: usize = 1 << 10;
 
-/// At most so many parts: where there are fewer, one thread waits long for the other's last.
+/// At most so many parts of each thread: where there are fewer, one waits long for another's last.
 #[cfg(feature = "rayon")]
-const PARTS: usize = 32;
+const PARTS: usize = 16;
 
 /// Applies `f` to the parts of 0..n, and returns what it makes of them in order, or the first error.
 #[cfg(feature = "rayon")]
@@ -17,10 +17,11 @@ pub(crate) fn map_parts<R: Send, E: Send>(
     f: impl Fn(Range<usize>) -> Result<R, E> + Sync + Send,
 ) -> Result<Vec<R>, E> {
     use rayon::prelude::*;
-    if n < WORTH_THREADS || rayon::current_num_threads() == 1 {
+    let n_threads = rayon::current_num_threads();
+    if n < WORTH_THREADS || n_threads == 1 {
         return f(0..n).map(|all| vec![all]);
     }
-    let size = n.div_ceil(PARTS);
+    let size = n.div_ceil(PARTS * n_threads);
     let part = |i: usize| f(i * size..((i + 1) * size).min(n));
     let parts: Vec<Result<R, E>> = (0..n.div_ceil(size)).into_par_iter().with_max_len(1).map(part).collect();
     parts.into_iter().collect()

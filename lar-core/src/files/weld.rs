@@ -1,9 +1,12 @@
 //! Welding: equal points become one vertex.
 //!
-//! Points are equal when all their coordinates are, never when they are merely near. The table holds indices
-//! only and compares through them, and the points stand in blocks that are freed as they are converted, so
-//! that a soup of triangles passes in about twice the size of its file.
+//! Points are equal when all their coordinates are, never when they are merely near. A table of millions of points is in
+//! no cache, and whoever looks up one corner after the other waits for the memory each time. Corners are therefore put into
+//! parts by their hash, so that equal ones come into the same part, and each part is welded by itself in a table that the
+//! cache holds.
 
+use super::error::MeshFileError;
+use super::source::Source;
 use crate::Points;
 use rustc_hash::FxHasher;
 use std::hash::Hasher;
@@ -44,134 +47,119 @@ impl Bits for f64 {
     }
 }
 
+/// A part of 10^7 corners and its table take some megabytes; so many lists that grow keep neither the first cache nor the
+/// table of pages busy. Measured from 16 to 512: 16 to 64 are about as fast, 256 a quarter slower.
+const PARTS: usize = 64;
+/// So many bits of the hash choose the part, those above them the slot.
+const PART_BITS: u32 = PARTS.ilog2();
+/// Corners whose vertices are written at a time, by all parts: what is written stays in the cache meanwhile.
+const WINDOW: usize = 1 << 14;
 const EMPTY: u32 = u32::MAX;
-/// Slots that the caches do not hold.
-const LARGE: usize = 1 << 18;
-/// Points a block: with 12 bytes each above 32 MiB, from where on the usual allocators give freed memory back to the
-/// system at once.
-const BLOCK: usize = 1 << 22;
 
-/// Numbers points in the order in which they are first seen. −0 must have been made 0 before.
-pub(crate) struct Welder<T, const D: usize> {
-    blocks: Vec<Vec<[T; D]>>,
+/// Corners in parts by their hash. −0 must have been made 0 before.
+pub(crate) struct Corners<T, const D: usize> {
+    parts: Vec<Vec<Corner<T, D>>>,
     n: u32,
-    /// Open addressing with linear probing, a power of two, at most half full: what is not there is found missing soon.
-    slots: Vec<u32>,
 }
 
-impl<T: Bits, const D: usize> Welder<T, D> {
+#[derive(Clone, Copy)]
+struct Corner<T, const D: usize> {
+    point: [T; D],
+    number: u32,
+}
+
+impl<T: Bits, const D: usize> Corners<T, D> {
     pub(crate) fn new() -> Self {
-        Self { blocks: Vec::new(), n: 0, slots: vec![EMPTY; 64] }
+        Self { parts: (0..PARTS).map(|_| Vec::new()).collect(), n: 0 }
     }
 
     pub(crate) fn len(&self) -> usize {
         self.n as usize
     }
 
-    /// Makes room in the table for so many more vertices, which then needs not grow step by step.
-    pub(crate) fn expect(&mut self, vertices: usize) {
-        let needed = (2 * (self.len() + vertices)).next_power_of_two();
-        if needed > self.slots.len() {
-            self.resize(needed);
-        }
+    /// Makes room for so many more corners, or says that there is none.
+    pub(crate) fn make_room(&mut self, source: &Source<'_>, n: usize) -> Result<(), MeshFileError> {
+        // Somewhat more than equally many for each: they are spread by chance.
+        let share = n / PARTS;
+        self.parts.iter_mut().try_for_each(|part| source.make_room(part, share + share / 16))
     }
 
-    /// The vertex at `point`; expected O(1). The caller keeps the number of vertices below 2^32 − 1.
-    pub(crate) fn vertex(&mut self, point: [T; D]) -> u32 {
-        if self.len() >= self.slots.len() / 2 {
-            self.grow();
-        }
-        let slot = self.slot(point);
-        if self.slots[slot] == EMPTY {
-            self.slots[slot] = self.n;
-            self.push(point);
-        }
-        self.slots[slot]
-    }
-
-    /// The vertices at points, as [`vertex`](Self::vertex) has them one after the other. Where the table is larger than
-    /// the caches this takes a tenth less time: no look-up waits for the one before.
-    pub(crate) fn batch(&mut self, points: &[[T; D]], vertices: &mut Vec<u32>) {
-        while self.len() + points.len() > self.slots.len() / 2 {
-            self.grow();
-        }
-        vertices.clear();
-        if self.slots.len() < LARGE {
-            vertices.extend(points.iter().map(|&point| self.vertex(point)));
-            return;
-        }
-        let mask = self.slots.len() - 1;
-        vertices.extend(points.iter().map(|&point| self.slots[hash(point) & mask]));
-        for (vertex, &point) in vertices.iter_mut().zip(points) {
-            if *vertex != EMPTY && !equal(self.point(*vertex), point) {
-                *vertex = EMPTY;
-            }
-        }
-        // What is not there, or not where it was looked for first.
-        for (vertex, &point) in vertices.iter_mut().zip(points).filter(|(vertex, _)| **vertex == EMPTY) {
-            *vertex = self.vertex(point);
-        }
-    }
-
-    /// The points, vertex after vertex.
-    pub(crate) fn into_points(self) -> Points {
-        let Self { mut blocks, n, slots } = self;
-        drop(slots);
-        // Zeroed memory is not there until it is written, and each block goes as its part is written.
-        let mut coords = vec![0.; n as usize * D];
-        while let Some(block) = blocks.pop() {
-            let to = coords[blocks.len() * BLOCK * D..].iter_mut();
-            to.zip(block.as_flattened()).for_each(|(to, &from)| *to = from.to_f64());
-        }
-        Points::from_columns(D, coords)
-    }
-
-    fn push(&mut self, point: [T; D]) {
-        match self.blocks.last_mut() {
-            Some(block) if block.len() < BLOCK => block.push(point),
-            _ => {
-                let mut block = if self.blocks.is_empty() { Vec::new() } else { Vec::with_capacity(BLOCK) };
-                block.push(point);
-                self.blocks.push(block);
-            }
-        }
+    /// Adds the next corner. The caller keeps their number below 2^32 − 1.
+    #[inline]
+    pub(crate) fn push(&mut self, point: [T; D]) {
+        self.parts[hash(point) % PARTS].push(Corner { point, number: self.n });
         self.n += 1;
     }
 
-    fn point(&self, vertex: u32) -> [T; D] {
-        let i = vertex as usize;
-        self.blocks[i / BLOCK][i % BLOCK]
-    }
-
-    /// The slot of an equal point, or the empty one where it belongs.
-    fn slot(&self, point: [T; D]) -> usize {
-        let mask = self.slots.len() - 1;
-        let mut slot = hash(point) & mask;
-        while self.slots[slot] != EMPTY && !equal(self.point(self.slots[slot]), point) {
-            slot = (slot + 1) & mask;
-        }
-        slot
-    }
-
-    fn grow(&mut self) {
-        self.resize(2 * self.slots.len());
-    }
-
-    /// Puts the vertices into a table of another size, a power of two.
-    fn resize(&mut self, n_slots: usize) {
-        self.slots = Vec::new();
-        self.slots = vec![EMPTY; n_slots];
-        let mask = n_slots - 1;
-        for vertex in 0..self.n {
-            let mut slot = hash(self.point(vertex)) & mask;
-            while self.slots[slot] != EMPTY {
-                slot = (slot + 1) & mask;
+    /// The vertices in the order in which they first come, and the vertex of each corner. Expected O(n).
+    pub(crate) fn weld(self) -> (Points, Vec<u32>) {
+        let mut slots = Vec::new();
+        let firsts: Vec<Vec<u32>> = self.parts.iter().map(|part| firsts(part, &mut slots)).collect();
+        drop(slots);
+        let is_new = |part: &[Corner<T, D>], firsts: &[u32]| {
+            part.iter().zip(firsts).filter(|(corner, first)| corner.number == **first).count()
+        };
+        let n_vertices: usize =
+            self.parts.iter().zip(&firsts).map(|(part, firsts)| is_new(part, firsts)).sum();
+        let (mut coords, mut vertices) = (vec![0.; D * n_vertices], vec![0; self.len()]);
+        let points = coords.as_chunks_mut::<D>().0;
+        let mut begins = [0; PARTS];
+        let mut n_vertices = 0;
+        for begin in (0..self.len()).step_by(WINDOW) {
+            let end = self.len().min(begin + WINDOW);
+            let mut ends = begins;
+            for ((part, firsts), k) in self.parts.iter().zip(&firsts).zip(&mut ends) {
+                while let Some(corner) = part.get(*k).filter(|corner| (corner.number as usize) < end) {
+                    vertices[corner.number as usize] = firsts[*k];
+                    *k += 1;
+                }
             }
-            self.slots[slot] = vertex;
+            for corner in begin..end {
+                let first = vertices[corner] as usize;
+                if first == corner {
+                    vertices[corner] = n_vertices;
+                    n_vertices += 1;
+                } else {
+                    vertices[corner] = vertices[first];
+                }
+            }
+            for (((part, firsts), begin), &end) in self.parts.iter().zip(&firsts).zip(&mut begins).zip(&ends)
+            {
+                for (corner, &first) in part[*begin..end].iter().zip(&firsts[*begin..end]) {
+                    if corner.number == first {
+                        points[vertices[first as usize] as usize] = corner.point.map(Bits::to_f64);
+                    }
+                }
+                *begin = end;
+            }
         }
+        (Points::from_columns(D, coords), vertices)
     }
 }
 
+/// The number of the first corner with the same point, for each corner of a part.
+fn firsts<T: Bits, const D: usize>(part: &[Corner<T, D>], slots: &mut Vec<u32>) -> Vec<u32> {
+    let n_slots = (2 * part.len()).next_power_of_two();
+    slots.clear();
+    slots.resize(n_slots, EMPTY);
+    let mask = n_slots - 1;
+    let first = |(corner, i): (&Corner<T, D>, u32)| {
+        let mut slot = hash(corner.point) >> PART_BITS & mask;
+        loop {
+            let Some(other) = part.get(slots[slot] as usize) else {
+                slots[slot] = i;
+                return corner.number;
+            };
+            if equal(other.point, corner.point) {
+                return other.number;
+            }
+            slot = (slot + 1) & mask;
+        }
+    };
+    part.iter().zip(0..).map(first).collect()
+}
+
+#[inline]
 fn hash<T: Bits, const D: usize>(point: [T; D]) -> usize {
     let mut hasher = FxHasher::default();
     point.into_iter().for_each(|x| hasher.write_u64(x.bits()));
@@ -179,6 +167,7 @@ fn hash<T: Bits, const D: usize>(point: [T; D]) -> usize {
 }
 
 /// One decision for all coordinates: the first is seldom enough.
+#[inline]
 fn equal<T: Bits, const D: usize>(a: [T; D], b: [T; D]) -> bool {
     a.into_iter().zip(b).fold(0, |differing, (a, b)| differing | (a.bits() ^ b.bits())) == 0
 }
@@ -186,35 +175,39 @@ fn equal<T: Bits, const D: usize>(a: [T; D], b: [T; D]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::HashMap;
 
     #[test]
-    fn batches_are_welded_like_single_points() {
-        let n = u32::try_from(LARGE).unwrap();
-        let points: Vec<_> = (0..n).map(|i| [f64::from(i % 100_003), f64::from(i % 2)]).collect();
-        let mut one_by_one = Welder::new();
-        let expected: Vec<_> = points.iter().map(|&point| one_by_one.vertex(point)).collect();
-        for size in [192, 5000] {
-            let (mut welder, mut batch, mut found) = (Welder::new(), Vec::new(), Vec::new());
-            for points in points.chunks(size) {
-                welder.batch(points, &mut batch);
-                found.extend_from_slice(&batch);
+    fn corners_become_vertices_in_the_order_in_which_they_come() {
+        let scattered = |i: u32| [f64::from(i % 997), f64::from(i % 31), 0.1 * f64::from(i % 2)];
+        let lattice = |i: u32| [i % 7, i / 7 % 7, i / 49 % 7].map(|x| 1e9 * f64::from(x));
+        let same = |_: u32| [1., 2., 3.];
+        let different = |i: u32| [0., 0., f64::from(i) * 1e-300];
+        for point in [scattered, lattice, same, different] {
+            for n in [0, 1, 3, 1000, 100_000] {
+                let mut corners = Corners::new();
+                let (mut known, mut distinct, mut expected) = (HashMap::new(), Vec::new(), Vec::new());
+                for point in (0..n).map(point) {
+                    corners.push(point);
+                    let vertex = *known.entry(point.map(f64::to_bits)).or_insert(distinct.len());
+                    expected.push(vertex as u32);
+                    if vertex == distinct.len() {
+                        distinct.push(point);
+                    }
+                }
+                assert_eq!(corners.len(), n as usize);
+                let (points, vertices) = corners.weld();
+                assert_eq!(vertices, expected);
+                assert_eq!(points.coords(), distinct.as_flattened());
             }
-            assert_eq!(found, expected);
-            assert_eq!(welder.len(), one_by_one.len());
         }
     }
 
     #[test]
-    fn equal_points_are_one_vertex() {
-        let mut welder = Welder::new();
-        let point = |i: u32| [i as f32 * 0.1, (i % 7) as f32, -1.];
-        let n = 3 * u32::try_from(BLOCK).unwrap() / 2;
-        for i in (0..n).chain((0..n).rev()) {
-            assert_eq!(welder.vertex(point(i)), i);
-        }
-        assert_eq!(welder.vertex([0., 0., 1e-45]), n);
-        assert_eq!(welder.len(), n as usize + 1);
-        let points = welder.into_points();
-        assert_eq!(points.xyz(70_000), point(70_000).map(f64::from));
+    fn single_precision_is_kept() {
+        let mut corners = Corners::new();
+        [[0.1f32, 0.], [0., 1e-45], [0.1, 0.]].map(|point| corners.push(point));
+        let (points, vertices) = corners.weld();
+        assert_eq!((points.point(1), vertices), (&[0., f64::from(1e-45f32)][..], vec![0, 1, 0]));
     }
 }

@@ -1,6 +1,6 @@
 //! Drawings: polylines in the plane.
 
-use crate::files::Welder;
+use crate::files::Corners;
 use crate::{Cells, Model, Points};
 use std::ops::Range;
 
@@ -55,16 +55,20 @@ impl Drawing {
     #[doc(alias = "svg2lar")]
     #[must_use]
     pub fn to_model(&self) -> Model {
-        let mut welder = Welder::<f64, 2>::new();
+        let mut corners = Corners::<f64, 2>::new();
+        // Minus zero is where zero is.
+        let points = self.polylines.iter().flat_map(|polyline| polyline.points.iter());
+        points.for_each(|p| corners.push([p[0] + 0., p[1] + 0.]));
+        let (points, vertices) = corners.weld();
         let mut edges = Vec::new();
+        let mut rest = &vertices[..];
         for polyline in &self.polylines {
-            let vertex = |p: &[f64]| welder.vertex([p[0] + 0., p[1] + 0.]);
-            let vertices: Vec<u32> = polyline.points.iter().map(vertex).collect();
+            let (vertices, others) = rest.split_at(polyline.points.len());
+            rest = others;
             let closing = if polyline.closed { vertices.first() } else { None };
             let ends = vertices.iter().skip(1).chain(closing);
             edges.extend(vertices.iter().zip(ends).filter(|(a, b)| a != b).flat_map(|(&a, &b)| [a, b]));
         }
-        let points = welder.into_points();
         let cells = vec![Cells::singletons(points.len()), Cells::uniform(2, edges)];
         Model::new(points, cells)
     }

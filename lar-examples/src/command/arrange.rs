@@ -98,7 +98,7 @@ impl Arrange {
         self.check_outputs()?;
         let operands = self.inputs.read()?;
         let (arrangement, time) = arrange(&operands.surfaces, self.threads, self.coplanarity)?;
-        let triangles = lar_triangle::triangulate(arrangement.complex())?;
+        let triangles = self.threads.triangulate(arrangement.complex())?;
         let report = self.report(&arrangement, &triangles, &operands, (time, start));
         if let Some(dir) = &self.obj {
             write_cells(&arrangement, &triangles, dir)?;

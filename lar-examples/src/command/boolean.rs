@@ -239,7 +239,7 @@ impl Boolean {
             let solid = evaluator
                 .solid(arrangement, &task.expression)
                 .map_err(|source| CommandError::Boolean { file: operands.file_of(&source), source })?;
-            let surfaces = Surfaces::new(&solid, &evaluator, before)?;
+            let surfaces = Surfaces::new(&solid, &evaluator, before, self.threads)?;
             Ok((Counts::new(&volumes, &solid, &surfaces), surfaces))
         };
         tasks.iter().map(result).collect()

@@ -113,7 +113,7 @@ impl Clean {
         if solid.cells().is_empty() {
             return Err(CommandError::EnclosesNothing { path: self.input.clone() });
         }
-        let surfaces = Surfaces::new(&solid, &evaluator, before)?;
+        let surfaces = Surfaces::new(&solid, &evaluator, before, self.threads)?;
         drop(bar);
         let operation = start.elapsed();
         surfaces.write(&self.output)?;

@@ -1,7 +1,7 @@
 //! The surface of a solid as polygons and as triangles, its numbers and its file.
 
 use super::input::is_json;
-use super::report::{Rounding, counted};
+use super::report::{Rounding, Threads, counted};
 use crate::CommandError;
 use lar_arrangement::{Evaluator, Solid, SolidComplex};
 use lar_core::{FaceId, MeshFormat, TriangleMesh, write_mesh};
@@ -27,16 +27,21 @@ impl Surfaces {
         solid: &Solid<'_>,
         evaluator: &Evaluator<'_>,
         before: Instant,
+        threads: Threads,
     ) -> Result<Self, CommandError> {
         let polygons =
             evaluator.surface(solid).map_err(|source| CommandError::Boolean { file: None, source })?;
-        Self::of(polygons, before.elapsed())
+        Self::of(polygons, before.elapsed(), threads)
     }
 
     /// Polygons that took so long to find.
-    pub(crate) fn of(polygons: SolidComplex, boolean: Duration) -> Result<Self, CommandError> {
+    pub(crate) fn of(
+        polygons: SolidComplex,
+        boolean: Duration,
+        threads: Threads,
+    ) -> Result<Self, CommandError> {
         let before = Instant::now();
-        let triangulation = lar_triangle::triangulate(&polygons.complex)?;
+        let triangulation = threads.triangulate(&polygons.complex)?;
         let faces = (0..).map(|f| (FaceId(f), 1)).take(polygons.n_faces());
         let triangles = triangulation.mesh_of_faces(polygons.complex.points(), faces)?;
         Ok(Self { polygons, triangulation, triangles, boolean, triangulate: before.elapsed() })

@@ -6,7 +6,7 @@ use crate::files::format::{MeshFormat, SurfaceFile};
 use crate::files::precision::{Digits, Precision};
 use crate::files::scan::Scan;
 use crate::files::source::{At, MARK, Source};
-use crate::files::weld::{Bits, Weld, Welder};
+use crate::files::weld::{Bits, Corners, Weld};
 use crate::files::words::{Words, words_of};
 use crate::{Cells, Surface};
 
@@ -35,16 +35,14 @@ pub(crate) fn form(head: &[u8], len: u64) -> MeshFormat {
 /// Some exporters write several solids one behind the other, each with a header; they make one surface.
 pub(crate) fn read_binary(source: &mut Source<'_>) -> Result<SurfaceFile, MeshFileError> {
     let mut facets = Facets::<f32>::new();
-    while facets.corners == 0 || source.rest() > 0 {
+    while facets.corners.len() == 0 || source.rest() > 0 {
         let announced = header(source)?;
         // The length of the file has vouched for them.
-        source.make_room(&mut facets.indices, 3 * announced as usize)?;
-        // A closed surface has half as many vertices as facets.
-        facets.welder.expect(announced as usize / 2);
+        facets.corners.make_room(source, 3 * announced as usize)?;
         for _ in 0..announced {
             let at = source.at_byte();
             let facet: [u8; FACET] = source.bytes("a facet of 50 bytes")?;
-            facets.push(at, [corner(at, &facet, 12)?, corner(at, &facet, 24)?, corner(at, &facet, 36)?])?;
+            facets.push(at, corners(at, &facet)?)?;
         }
         if announced == 0 {
             break;
@@ -67,17 +65,15 @@ fn header(source: &mut Source<'_>) -> Result<u32, MeshFileError> {
     Err(at.error(Problem::Length { what: "facets", announced: announced.into(), needed, found }))
 }
 
-fn corner(at: At<'_>, facet: &[u8; FACET], start: usize) -> Result<[f32; 3], MeshFileError> {
-    let mut point = [0.; 3];
-    for (k, x) in point.iter_mut().enumerate() {
-        let i = start + 4 * k;
-        // Minus zero is where zero is.
-        *x = f32::from_le_bytes([facet[i], facet[i + 1], facet[i + 2], facet[i + 3]]) + 0.;
-        if !x.is_finite() {
-            return Err(at.error(Problem::NonFinite { value: x.to_string() }));
-        }
+/// The corners of a facet, behind its normal.
+fn corners(at: At<'_>, facet: &[u8; FACET]) -> Result<[[f32; 3]; 3], MeshFileError> {
+    let (coordinates, _) = facet[12..].as_chunks();
+    // Minus zero is where zero is.
+    let corners = [0, 3, 6].map(|c| [c, c + 1, c + 2].map(|i| f32::from_le_bytes(coordinates[i]) + 0.));
+    match corners.as_flattened().iter().find(|x| !x.is_finite()) {
+        None => Ok(corners),
+        Some(x) => Err(at.error(Problem::NonFinite { value: x.to_string() })),
     }
-    Ok(point)
 }
 
 /// Words in any arrangement on lines; keywords in either case; normals are read and forgotten. Several solids
@@ -220,69 +216,54 @@ fn number(at: At<'_>, words: &mut Words<'_>) -> Result<(), MeshFileError> {
     word.parse::<f64>().map(|_| ()).map_err(|_| at.expected("a number", word))
 }
 
-/// Corners welded at a time: facets whose bytes and whose places in the table the first cache holds.
-const BATCH: usize = 3 * 64;
-
 struct Facets<T> {
-    welder: Welder<T, 3>,
-    indices: Vec<u32>,
-    corners: usize,
-    /// Corners to be welded.
-    pending: Vec<[T; 3]>,
-    /// Their vertices.
-    welded: Vec<u32>,
+    corners: Corners<T, 3>,
 }
 
 impl<T: Bits> Facets<T> {
     fn new() -> Self {
-        let (pending, welded) = (Vec::with_capacity(BATCH), Vec::with_capacity(BATCH));
-        Self { welder: Welder::new(), indices: Vec::new(), corners: 0, pending, welded }
+        Self { corners: Corners::new() }
     }
 
-    /// Whether one more facet fits for sure.
+    /// Whether one more facet fits.
     fn has_room(&self) -> bool {
-        self.indices.len() + self.pending.len() + 3 < u32::MAX as usize
+        self.corners.len() + 3 < u32::MAX as usize
     }
 
     fn push(&mut self, at: At<'_>, corners: [[T; 3]; 3]) -> Result<(), MeshFileError> {
-        if !self.has_room() {
-            self.weld();
-            at.check_size(self.indices.len() + 3)?;
-        }
-        self.corners += 3;
-        self.pending.extend(corners);
-        if self.pending.len() == BATCH {
-            self.weld();
-        }
+        at.check_size(self.corners.len() + 3)?;
+        corners.into_iter().for_each(|corner| self.corners.push(corner));
         Ok(())
     }
 
-    fn weld(&mut self) {
-        self.welder.batch(&self.pending, &mut self.welded);
-        self.pending.clear();
-        for &[a, b, c] in self.welded.as_chunks().0 {
-            if a != b && b != c && c != a {
-                self.indices.extend([a, b, c]);
-            }
-        }
-    }
-
     fn finish(
-        mut self,
+        self,
         source: &Source<'_>,
         format: MeshFormat,
         precision: Precision,
     ) -> Result<SurfaceFile, MeshFileError> {
-        self.weld();
-        if self.indices.is_empty() {
+        let corners = self.corners.len();
+        let (points, mut indices) = self.corners.weld();
+        let kept = keep_triangles(&mut indices);
+        indices.truncate(kept);
+        if indices.is_empty() {
             return Err(source.at_byte().error(Problem::NoFaces));
         }
-        let vertices = self.welder.len();
-        let weld =
-            Weld { corners: self.corners, vertices, collapsed: (self.corners - self.indices.len()) / 3 };
-        let points = self.welder.into_points();
-        let mut surface = Surface::from_polygons(source.stem(), points, Cells::uniform(3, self.indices));
+        let weld = Weld { corners, vertices: points.len(), collapsed: (corners - indices.len()) / 3 };
+        let mut surface = Surface::from_polygons(source.stem(), points, Cells::uniform(3, indices));
         surface.precision = precision;
         Ok(SurfaceFile { surface, format, weld: Some(weld) })
     }
+}
+
+/// Brings the facets of three different vertices to the front; the number of their corners.
+fn keep_triangles(indices: &mut [u32]) -> usize {
+    let mut kept = 0;
+    let facets = indices.as_chunks_mut::<3>().0;
+    for i in 0..facets.len() {
+        let [a, b, c] = facets[i];
+        facets[kept] = [a, b, c];
+        kept += usize::from(a != b && b != c && c != a);
+    }
+    3 * kept
 }

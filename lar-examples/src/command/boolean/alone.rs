@@ -48,7 +48,7 @@ impl Boolean {
             BooleanError::Arrangement(error) => error.into(),
             source => CommandError::Boolean { file: operands.file_of(&source), source },
         })?;
-        let surfaces = Surfaces::of(polygons, before.elapsed())?;
+        let surfaces = Surfaces::of(polygons, before.elapsed(), self.threads)?;
         surfaces.write(&self.output)?;
         let is_bounded = !task.expression.evaluate(|_| false);
         let input = |(surface, file): (&lar_core::Surface, &std::path::PathBuf)| Input {
