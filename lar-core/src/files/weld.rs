@@ -175,7 +175,7 @@ fn equal<T: Bits, const D: usize>(a: [T; D], b: [T; D]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::collections::HashMap;
+    use std::collections::BTreeMap;
 
     #[test]
     fn corners_become_vertices_in_the_order_in_which_they_come() {
@@ -186,7 +186,7 @@ mod tests {
         for point in [scattered, lattice, same, different] {
             for n in [0, 1, 3, 1000, 100_000] {
                 let mut corners = Corners::new();
-                let (mut known, mut distinct, mut expected) = (HashMap::new(), Vec::new(), Vec::new());
+                let (mut known, mut distinct, mut expected) = (BTreeMap::new(), Vec::new(), Vec::new());
                 for point in (0..n).map(point) {
                     corners.push(point);
                     let vertex = *known.entry(point.map(f64::to_bits)).or_insert(distinct.len());
@@ -206,7 +206,7 @@ mod tests {
     #[test]
     fn single_precision_is_kept() {
         let mut corners = Corners::new();
-        [[0.1f32, 0.], [0., 1e-45], [0.1, 0.]].map(|point| corners.push(point));
+        [[0.1f32, 0.], [0., 1e-45], [0.1, 0.]].into_iter().for_each(|point| corners.push(point));
         let (points, vertices) = corners.weld();
         assert_eq!((points.point(1), vertices), (&[0., f64::from(1e-45f32)][..], vec![0, 1, 0]));
     }
