@@ -237,6 +237,7 @@ fn only(surfaces: Vec<Surface>) -> Surface {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::icosphere;
     use proptest::prelude::*;
     use proptest::sample::Index;
 
@@ -302,12 +303,14 @@ mod tests {
 
     #[test]
     fn buffers_of_any_size() {
-        for (name, head, body) in &TEXTS[1..] {
-            let text = [head.as_bytes(), body.as_bytes()].concat();
-            let whole = parse_surface(&text, name).unwrap();
-            for n in 1..=text.len() {
-                let mut input = BufReader::with_capacity(n, &text[..]);
-                let mut source = Source::new(Path::new(name), &mut input, text.len() as u64);
+        let texts = TEXTS[1..].iter().map(|(name, head, body)| (*name, [*head, *body].concat().into_bytes()));
+        let binary = [("b.stl", MeshFormat::StlBinary), ("b.ply", MeshFormat::PlyBigEndian)];
+        let binary = binary.map(|(name, format)| (name, icosphere(0).to_bytes(format).unwrap()));
+        for (name, bytes) in texts.chain(binary) {
+            let whole = parse_surface(&bytes, name).unwrap();
+            for n in 1..=bytes.len() {
+                let mut input = BufReader::with_capacity(n, &bytes[..]);
+                let mut source = Source::new(Path::new(name), &mut input, bytes.len() as u64);
                 assert_eq!(read_as(whole.format, &mut source).unwrap(), whole, "{name}, {n} bytes");
             }
         }

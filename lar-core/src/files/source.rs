@@ -242,6 +242,37 @@ impl<'a> Source<'a> {
         }
     }
 
+    /// Gives `each` the next `n` records with the place where each begins, or the error that `expected` is missing. They
+    /// are read where they stand in the buffer: what was copied in pieces of one size and is read in pieces of another
+    /// makes a processor wait.
+    pub(crate) fn records<const N: usize>(
+        &mut self,
+        n: u64,
+        expected: &'static str,
+        mut each: impl FnMut(At<'a>, &[u8; N]) -> Result<(), MeshFileError>,
+    ) -> Result<(), MeshFileError> {
+        self.input.consume(mem::take(&mut self.lent));
+        let mut left = n;
+        while left > 0 {
+            let ahead = fill(self.input).map_err(|source| failure(self.file, source))?;
+            let (whole, _) = ahead.as_chunks();
+            let whole = &whole[..whole.len().min(usize::try_from(left).unwrap_or(usize::MAX))];
+            for record in whole {
+                each(At { file: self.file, place: Place::Byte(self.offset) }, record)?;
+                self.offset += N as u64;
+            }
+            let n_whole = whole.len();
+            self.input.consume(n_whole * N);
+            left -= n_whole as u64;
+            if n_whole == 0 {
+                let at = self.at_byte();
+                each(at, &self.bytes(expected)?)?;
+                left -= 1;
+            }
+        }
+        Ok(())
+    }
+
     /// Makes room for `n` more items, or says that there is none.
     pub(crate) fn make_room<T>(&self, items: &mut Vec<T>, n: usize) -> Result<(), MeshFileError> {
         items.try_reserve_exact(n).map_err(|_| self.failure(io::ErrorKind::OutOfMemory.into()))

@@ -94,13 +94,14 @@ impl<T: Bits, const D: usize> Corners<T, D> {
     /// The vertices in the order in which they first come, and the vertex of each corner. Expected O(n).
     pub(crate) fn weld(self) -> (Points, Vec<u32>) {
         let mut slots = Vec::new();
-        let firsts: Vec<Vec<u32>> = self.parts.iter().map(|part| firsts(part, &mut slots)).collect();
-        drop(slots);
-        let is_new = |part: &[Corner<T, D>], firsts: &[u32]| {
-            part.iter().zip(firsts).filter(|(corner, first)| corner.number == **first).count()
+        let mut n_vertices = 0;
+        let mut firsts_of = |part: &Vec<_>| {
+            let (firsts, n_new) = firsts(part, &mut slots);
+            n_vertices += n_new;
+            firsts
         };
-        let n_vertices: usize =
-            self.parts.iter().zip(&firsts).map(|(part, firsts)| is_new(part, firsts)).sum();
+        let firsts: Vec<Vec<u32>> = self.parts.iter().map(&mut firsts_of).collect();
+        drop(slots);
         let (mut coords, mut vertices) = (vec![0.; D * n_vertices], vec![0; self.len()]);
         let points = coords.as_chunks_mut::<D>().0;
         let mut begins = [0; PARTS];
@@ -137,17 +138,19 @@ impl<T: Bits, const D: usize> Corners<T, D> {
     }
 }
 
-/// The number of the first corner with the same point, for each corner of a part.
-fn firsts<T: Bits, const D: usize>(part: &[Corner<T, D>], slots: &mut Vec<u32>) -> Vec<u32> {
+/// The number of the first corner with the same point, for each corner of a part, and how many points there are.
+fn firsts<T: Bits, const D: usize>(part: &[Corner<T, D>], slots: &mut Vec<u32>) -> (Vec<u32>, usize) {
     let n_slots = (2 * part.len()).next_power_of_two();
     slots.clear();
     slots.resize(n_slots, EMPTY);
     let mask = n_slots - 1;
+    let mut n_points = 0;
     let first = |(corner, i): (&Corner<T, D>, u32)| {
         let mut slot = hash(corner.point) >> PART_BITS & mask;
         loop {
             let Some(other) = part.get(slots[slot] as usize) else {
                 slots[slot] = i;
+                n_points += 1;
                 return corner.number;
             };
             if equal(other.point, corner.point) {
@@ -156,7 +159,8 @@ fn firsts<T: Bits, const D: usize>(part: &[Corner<T, D>], slots: &mut Vec<u32>) 
             slot = (slot + 1) & mask;
         }
     };
-    part.iter().zip(0..).map(first).collect()
+    let firsts = part.iter().zip(0..).map(first).collect();
+    (firsts, n_points)
 }
 
 #[inline]

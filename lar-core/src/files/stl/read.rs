@@ -39,11 +39,9 @@ pub(crate) fn read_binary(source: &mut Source<'_>) -> Result<SurfaceFile, MeshFi
         let announced = header(source)?;
         // The length of the file has vouched for them.
         facets.corners.make_room(source, 3 * announced as usize)?;
-        for _ in 0..announced {
-            let at = source.at_byte();
-            let facet: [u8; FACET] = source.bytes("a facet of 50 bytes")?;
-            facets.push(at, corners(at, &facet)?)?;
-        }
+        source.records(announced.into(), "a facet of 50 bytes", |at, facet: &[u8; FACET]| {
+            facets.push(at, corners(at, facet)?)
+        })?;
         if announced == 0 {
             break;
         }
