@@ -2,8 +2,8 @@
 mod support;
 
 use lar_viewer::{
-    Appearance, CellRef, CellStyle, Clip, Drawable, Explosion, Hit, OffscreenRenderer, Outline, Outlined,
-    Scene, View, WHITE, push_cells,
+    Appearance, Camera, CellRef, CellStyle, Clip, Drawable, Explosion, Hit, OffscreenRenderer, Outline,
+    Outlined, Prepared, Projection, Scene, StandardView, View, WHITE, push_cells,
 };
 use support::{cube_grid, cuboid, differing, renderer};
 
@@ -181,6 +181,32 @@ fn vertices_win_over_edges_and_edges_over_faces() {
 }
 
 #[test]
+fn what_is_wide_is_picked_far_from_what_it_marks() {
+    let Some(mut renderer) = renderer() else { return };
+    let mut scene = Scene::new();
+    scene.push(Drawable::points("dot", [[0.; 3]]).size(60.0)).unwrap();
+    scene.push(Drawable::lines("line", [[[-1., 0., 1.], [1., 0., 1.]]]).width(40.0)).unwrap();
+    let camera = Camera { orientation: StandardView::Front.orientation(), ..Camera::default() };
+    let view = View { camera: camera.toggle_projection(), ..View::default() };
+    let line = view.camera.project([0.0, 0.0, 1.0], f64::from(SIZE[1])).unwrap()[1];
+    let mut prepared = renderer.prepare(&scene).unwrap();
+    let check = |prepared: &Prepared<'_>, [x, y]: [f64; 2], expected: Option<usize>| {
+        let pixel = [(x + 80.0) as u32, (y + 60.0) as u32];
+        let hit = prepared.pick(&view, SIZE, pixel, 0).unwrap();
+        assert_eq!(hit.map(|h| h.drawable), expected, "{pixel:?}");
+    };
+    check(&prepared, [28.0, 0.0], Some(0));
+    check(&prepared, [0.0, 28.0], Some(0));
+    check(&prepared, [35.0, line + 18.0], Some(1));
+    check(&prepared, [46.0, 0.0], None);
+    let highlighted: Vec<_> =
+        scene.appearances().into_iter().map(|a| Appearance { highlighted: true, ..a }).collect();
+    prepared.set_appearances(&highlighted).unwrap();
+    check(&prepared, [46.0, 0.0], Some(0));
+    check(&prepared, [0.0, 46.0], Some(0));
+}
+
+#[test]
 fn the_clip_plane_cuts_or_takes_whole_cells() {
     let Some(mut renderer) = renderer() else { return };
     let (scene, view) = grid(1.0);
@@ -300,10 +326,10 @@ fn outlines_are_around_the_model_its_solids_or_its_cells() {
             scene.push(Drawable::mesh("cube", shape.mesh).group(cell).opacity(0.6)).unwrap();
         }
     }
-    let front = lar_viewer::Camera {
-        orientation: lar_viewer::StandardView::Front.orientation(),
-        projection: lar_viewer::Projection::Orthographic,
-        ..lar_viewer::Camera::default()
+    let front = Camera {
+        orientation: StandardView::Front.orientation(),
+        projection: Projection::Orthographic,
+        ..Camera::default()
     };
     let view = View { camera: front, background: WHITE, samples: 2, ..View::default() }.fit(&scene, ASPECT);
     let [model, solids, cells] = [Outlined::Model, Outlined::Solids, Outlined::Cells]

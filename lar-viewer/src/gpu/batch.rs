@@ -104,8 +104,15 @@ impl Batch {
         let range = span.start as usize..(span.start + span.n) as usize;
         match span.kind {
             MESH => Ball::around(self.triangles[range].iter().flatten().map(|v| v.position)),
-            LINES => Ball::around(self.lines[range].iter().flat_map(|l| [l.start, l.end])),
-            POINTS => Ball::around(self.dots[range].iter().map(|d| d.center)),
+            LINES => {
+                let lines = &self.lines[range];
+                Ball::around(lines.iter().flat_map(|l| [l.start, l.end]))
+                    .of_widths(lines.iter().map(|l| l.width))
+            }
+            POINTS => {
+                let dots = &self.dots[range];
+                Ball::around(dots.iter().map(|d| d.center)).of_widths(dots.iter().map(|d| d.size))
+            }
             _ => Ball::around(self.strokes[range].iter().map(|s| s.anchor)),
         }
     }

@@ -102,7 +102,8 @@ impl Renderer {
             let corner = pixel.map(|at| radius as f32 - at as f32);
             pass.set_viewport(corner[0], corner[1], raster.width as f32, raster.height as f32, 0.0, 1.0);
             for ((scene, frame), group) in scenes.iter().zip(&frames).zip(&groups) {
-                let runs = scene.runs(Way::Id, view.opacity, &Frustum::new(frame));
+                let near = Frustum::around(frame, pixel, radius);
+                let runs = scene.runs(Way::Id, view.opacity, &near);
                 pass.set_bind_group(0, group, &[0]);
                 draw_runs(&mut pass, context, &self.pipelines, scene, Way::Id, &runs);
             }

@@ -13,8 +13,8 @@ use std::ops::Range;
 use wgpu::{Buffer, BufferUsages};
 
 /// Two stretches of elements with fewer than this many between them are drawn by one call: the shader drops what lies
-/// between, and calls cost more.
-const GAP: u32 = 2048;
+/// between. So many elements take about as long as a call on a processor that draws.
+const GAP: u32 = 64;
 
 /// Which elements a pass draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
