@@ -10,6 +10,7 @@ use super::source::Source;
 use crate::Points;
 use rustc_hash::FxHasher;
 use std::hash::Hasher;
+use std::ops::Range;
 
 /// What welding did to the corners of a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -93,19 +94,10 @@ impl<T: Bits, const D: usize> Corners<T, D> {
 
     /// The vertices in the order in which they first come, and the vertex of each corner. Expected O(n).
     pub(crate) fn weld(self) -> (Points, Vec<u32>) {
-        let mut slots = Vec::new();
-        let mut n_vertices = 0;
-        let mut firsts_of = |part: &Vec<_>| {
-            let (firsts, n_new) = firsts(part, &mut slots);
-            n_vertices += n_new;
-            firsts
-        };
-        let firsts: Vec<Vec<u32>> = self.parts.iter().map(&mut firsts_of).collect();
-        drop(slots);
+        let (firsts, n_vertices) = self.firsts();
         let (mut coords, mut vertices) = (vec![0.; D * n_vertices], vec![0; self.len()]);
         let points = coords.as_chunks_mut::<D>().0;
-        let mut begins = [0; PARTS];
-        let mut n_vertices = 0;
+        let (mut begins, mut n_numbered) = ([0; PARTS], 0);
         for begin in (0..self.len()).step_by(WINDOW) {
             let end = self.len().min(begin + WINDOW);
             let mut ends = begins;
@@ -115,26 +107,44 @@ impl<T: Bits, const D: usize> Corners<T, D> {
                     *k += 1;
                 }
             }
-            for corner in begin..end {
-                let first = vertices[corner] as usize;
-                if first == corner {
-                    vertices[corner] = n_vertices;
-                    n_vertices += 1;
-                } else {
-                    vertices[corner] = vertices[first];
-                }
-            }
-            for (((part, firsts), begin), &end) in self.parts.iter().zip(&firsts).zip(&mut begins).zip(&ends)
+            number(&mut vertices, begin..end, &mut n_numbered);
+            for ((part, firsts), (begin, end)) in
+                self.parts.iter().zip(&firsts).zip(begins.into_iter().zip(ends))
             {
-                for (corner, &first) in part[*begin..end].iter().zip(&firsts[*begin..end]) {
+                for (corner, &first) in part[begin..end].iter().zip(&firsts[begin..end]) {
                     if corner.number == first {
                         points[vertices[first as usize] as usize] = corner.point.map(Bits::to_f64);
                     }
                 }
-                *begin = end;
             }
+            begins = ends;
         }
         (Points::from_columns(D, coords), vertices)
+    }
+
+    /// For each corner of each part the number of the first one with the same point, and how many points there are.
+    fn firsts(&self) -> (Vec<Vec<u32>>, usize) {
+        let (mut slots, mut n_points) = (Vec::new(), 0);
+        let of_part = |part: &Vec<_>| {
+            let (firsts, n_of_part) = firsts(part, &mut slots);
+            n_points += n_of_part;
+            firsts
+        };
+        (self.parts.iter().map(of_part).collect(), n_points)
+    }
+}
+
+/// Makes numbers of vertices of those of the first corners with the same points, in a range whose corners before it have
+/// theirs.
+fn number(vertices: &mut [u32], range: Range<usize>, n_numbered: &mut u32) {
+    for corner in range {
+        let first = vertices[corner] as usize;
+        if first == corner {
+            vertices[corner] = *n_numbered;
+            *n_numbered += 1;
+        } else {
+            vertices[corner] = vertices[first];
+        }
     }
 }
 

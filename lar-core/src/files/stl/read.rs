@@ -242,8 +242,7 @@ impl<T: Bits> Facets<T> {
     ) -> Result<SurfaceFile, MeshFileError> {
         let corners = self.corners.len();
         let (points, mut indices) = self.corners.weld();
-        let kept = keep_triangles(&mut indices);
-        indices.truncate(kept);
+        keep_triangles(&mut indices);
         if indices.is_empty() {
             return Err(source.at_byte().error(Problem::NoFaces));
         }
@@ -254,8 +253,8 @@ impl<T: Bits> Facets<T> {
     }
 }
 
-/// Brings the facets of three different vertices to the front; the number of their corners.
-fn keep_triangles(indices: &mut [u32]) -> usize {
+/// Leaves out the facets that have not three different vertices.
+fn keep_triangles(indices: &mut Vec<u32>) {
     let mut kept = 0;
     let facets = indices.as_chunks_mut::<3>().0;
     for i in 0..facets.len() {
@@ -263,5 +262,5 @@ fn keep_triangles(indices: &mut [u32]) -> usize {
         facets[kept] = [a, b, c];
         kept += usize::from(a != b && b != c && c != a);
     }
-    3 * kept
+    indices.truncate(3 * kept);
 }
