@@ -33,17 +33,34 @@ impl Ball {
     }
 }
 
-/// The sides of what a camera sees of an exploded scene, in a picture or in a rectangle of it.
-pub(crate) struct Frustum {
+/// A rectangle of the picture.
+struct Rectangle {
     /// What gives the clip coordinates x, y and w.
     rows: [Vec4; 3],
-    /// The edges of the rectangle, x and y over w.
+    /// Its edges, x and y over w.
     low: [f32; 2],
     high: [f32; 2],
+}
+
+impl Rectangle {
+    /// The sides of what is seen through it and so many half sides of the picture beyond its edges: normals of length 1 that
+    /// point inwards, and offsets.
+    fn sides(&self, margins: [f32; 2]) -> [Vec4; 4] {
+        let [x, y, w] = self.rows;
+        let low = [0, 1].map(|k| self.low[k] - margins[k]);
+        let high = [0, 1].map(|k| self.high[k] + margins[k]);
+        let sides = [x - low[0] * w, high[0] * w - x, y - low[1] * w, high[1] * w - y];
+        sides.map(|side| side / side.xyz().length().max(f32::MIN_POSITIVE))
+    }
+}
+
+/// What a camera sees of an exploded scene in a rectangle.
+pub(crate) struct Frustum {
+    rectangle: Rectangle,
+    /// Its sides with the least margin.
+    sides: [Vec4; 4],
     /// Half the sides of the picture, in pixels of line width.
     half_view: [f32; 2],
-    /// With the least margin: normals of length 1 that point inwards, and offsets.
-    sides: [Vec4; 4],
     explode: Vec<Vec3>,
     about: Vec3,
 }
@@ -66,26 +83,14 @@ impl Frustum {
     fn through(frame: &Frame, low: [f32; 2], high: [f32; 2]) -> Self {
         let matrix = Mat4::from_cols_array_2d(&frame.clip_from_view)
             * Mat4::from_cols_array_2d(&frame.view_from_scene);
-        let mut frustum = Self {
-            rows: [0, 1, 3].map(|i| matrix.row(i)),
-            low,
-            high,
+        let rectangle = Rectangle { rows: [0, 1, 3].map(|i| matrix.row(i)), low, high };
+        Self {
+            sides: rectangle.sides([MARGIN; 2]),
+            rectangle,
             half_view: frame.viewport.map(|samples| 0.5 * samples / frame.samples_per_pixel),
-            sides: [Vec4::ZERO; 4],
             explode: frame.explode.map(|f| Vec4::from(f).xyz()).to_vec(),
             about: Vec3::from(frame.about),
-        };
-        frustum.sides = frustum.sides([MARGIN; 2]);
-        frustum
-    }
-
-    /// The sides, so many half sides of the picture beyond the edges.
-    fn sides(&self, margins: [f32; 2]) -> [Vec4; 4] {
-        let [x, y, w] = self.rows;
-        let low = [0, 1].map(|k| self.low[k] - margins[k]);
-        let high = [0, 1].map(|k| self.high[k] + margins[k]);
-        let sides = [x - low[0] * w, high[0] * w - x, y - low[1] * w, high[1] * w - y];
-        sides.map(|side| side / side.xyz().length().max(f32::MIN_POSITIVE))
+        }
     }
 
     /// Whether a ball of a group may be seen; `displacement` in `common.wgsl` moves it.
@@ -97,7 +102,7 @@ impl Frustum {
         });
         let center = ball.center + moved;
         let margins = self.half_view.map(|half| MARGIN.max((ball.reach + 1.0) / half));
-        let sides = if margins == [MARGIN; 2] { self.sides } else { self.sides(margins) };
+        let sides = if margins == [MARGIN; 2] { self.sides } else { self.rectangle.sides(margins) };
         // What is not comparable is drawn.
         !sides.iter().any(|side| side.xyz().dot(center) + side.w < -ball.radius)
     }
